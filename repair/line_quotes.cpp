@@ -69,36 +69,35 @@ void LineRepair::close_text() {
 /// `warned = "False"`: what is true is 1.
 void LineRepair::truths() {
   auto& tokens = parts_.tokens;
-  const bool programs =
-      judge_.language == Language::Basic || judge_.language == Language::Structured;
-  if (programs && tokens.size() == 2 && holds("while until if", tokens[0].text) &&
+  if (is_program() && tokens.size() == 2 && holds("while until if", tokens[0].text) &&
       tokens[1].is_text() && holds("true false", tokens[1].text))
     tokens[1].kind = Token::Kind::Word; // `While "True"`
-  if (!programs || tokens.size() != 3 || !tokens[1].is("=") || !tokens[2].is_text() ||
+  if (!is_program() || tokens.size() != 3 || !tokens[1].is("=") || !tokens[2].is_text() ||
       !holds("true false", tokens[2].text))
     return;
   tokens[2].kind = Token::Kind::Number;
   tokens[2].text = equal_words(tokens[2].text, "true") ? "1" : "0";
 }
 
-/// `state = "open"` where the program has `open`.
-void LineRepair::names_in_quotes() {
+/// `DATA "222","121"` and `RGB("0,255,0")`: neither takes a text.
+void LineRepair::numbers_in_quotes() {
   auto& tokens = parts_.tokens;
-  const bool data = !tokens.empty() && tokens[0].is("data");
-  for (auto& token : tokens) // `DATA "222","121"`
-    if (data && token.is_text() && !token.text.empty() &&
-        token.text.find_first_not_of("0123456789") == std::string::npos)
-      token.kind = Token::Kind::Number;
-  for (std::size_t i = 1; i < tokens.size(); ++i) { // `RGB("0,255,0")`
+  if (tokens.empty() || !(tokens[0].is("data") || tokens[0].is("RGB")))
+    return;
+  for (std::size_t i = 1; i < tokens.size(); ++i) {
     const std::string_view said = tokens[i].text;
-    if (!tokens[i].is_text() || !tokens[0].is("RGB") || said.empty() ||
+    if (!tokens[i].is_text() || said.empty() || !is_digit(said[0]) ||
         said.find_first_not_of("0123456789, ") != std::string_view::npos)
       continue;
     const auto values = tokens_of(said, judge_.language);
-    tokens.erase(tokens.begin() + static_cast<std::ptrdiff_t>(i));
-    tokens.insert(tokens.begin() + static_cast<std::ptrdiff_t>(i), values.begin(), values.end());
-    break;
+    const auto at = tokens.erase(tokens.begin() + static_cast<std::ptrdiff_t>(i));
+    tokens.insert(at, values.begin(), values.end());
   }
+}
+
+/// `state = "open"` where the program has `open`.
+void LineRepair::names_in_quotes() {
+  auto& tokens = parts_.tokens;
   if (judge_.language != Language::Structured || has_token(tokens, "print"))
     return;
   for (std::size_t i = 1; i < tokens.size(); ++i)
@@ -147,11 +146,9 @@ std::optional<int> LineRepair::cost_of_texts(std::string_view statement) const {
 /// fewest names of the program in texts. `print "toss, C ": " T` is `print "toss", C ": " T`.
 std::vector<std::string> LineRepair::with_one_quote() const {
   const std::string text(trim(line_.substr(std::min(parts_.head.size(), line_.size()))));
-  const bool programs =
-      judge_.language == Language::Basic || judge_.language == Language::Structured;
   constexpr std::size_t longest = 160;
-  if (!programs || std::count(text.begin(), text.end(), '"') % 2 == 0 || text.size() > longest ||
-      !has_token(parts_.tokens, "print"))
+  if (!is_program() || std::count(text.begin(), text.end(), '"') % 2 == 0 ||
+      text.size() > longest || !has_token(parts_.tokens, "print"))
     return {};
   std::vector<Requoted> all;
   put_in_quote(text, all);

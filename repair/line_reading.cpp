@@ -41,20 +41,23 @@ void LineRepair::canonical() {
   close_text();
   truths();
   read_logo();
-  drop_article();
-  const auto has = [this](std::string_view part) {
-    return line_.find(part) != std::string_view::npos;
-  };
-  if (line_.find_first_of("[](){}#:9") != std::string_view::npos || has(" 8 ") || has(" 5 ") ||
-      has("m "))
-    read_signs();
+  drop_small_words();
+  read_zeros();
+  single_letters();
+  drop_brackets();
+  drop_colons();
+  read_branches();
+  read_shifted();
+  read_hexadecimal();
   plain_signs();
   part_line();
   part_glued();
+  part_for();
   part_next();
   same_letters();
   drop_prefixes();
   without_accents();
+  numbers_in_quotes();
   names_in_quotes();
   other_forms();
   count_percents();
@@ -115,17 +118,21 @@ std::vector<std::string> parts_of_glued(std::string_view word,
 
 } // namespace
 
-/// `nexti` in a program with `i`, and `forn = 1 to 5`.
-void LineRepair::part_next() {
+/// `forn = 1 to 5`
+void LineRepair::part_for() {
   constexpr std::string_view begins = "for";
-  if (auto& first = parts_.tokens; judge_.language == Language::Structured && first.size() > 4 &&
-                                   first[0].text.starts_with(begins) && first[1].is("=") &&
-                                   has_token(first, "to") && first[0].text.size() > begins.size()) {
-    first[0].text.erase(0, begins.size());
-    first[0].gap = true;
-    first.insert(first.begin(), Token{Token::Kind::Word, std::string(begins)});
+  auto& tokens = parts_.tokens;
+  if (judge_.language != Language::Structured || tokens.size() < 5 ||
+      !tokens[0].text.starts_with(begins) || tokens[0].text.size() == begins.size() ||
+      !tokens[1].is("=") || !has_token(tokens, "to"))
     return;
-  }
+  tokens[0].text.erase(0, begins.size());
+  tokens[0].gap = true;
+  tokens.insert(tokens.begin(), Token{Token::Kind::Word, std::string(begins)});
+}
+
+/// `nexti` in a program with `i`.
+void LineRepair::part_next() {
   constexpr std::string_view next = "next";
   auto& tokens = parts_.tokens;
   if (tokens.size() != 1 || judge_.language != Language::Structured ||
@@ -184,9 +191,7 @@ void LineRepair::plain_signs() {
     return;
   for (std::size_t i = 2; i + 1 < parts_.tokens.size(); ++i) { // `60 plus tilt`
     auto& token = parts_.tokens[i];
-    const bool programs =
-        judge_.language == Language::Basic || judge_.language == Language::Structured;
-    if (programs && (token.is("plus") || token.is("minus")) && !has_word(names_, token.text) &&
+    if (is_program() && (token.is("plus") || token.is("minus")) && !has_word(names_, token.text) &&
         !parts_.tokens[i - 1].is("=") && !parts_.tokens[0].is("print"))
       token = Token{Token::Kind::Sign, token.is("plus") ? "+" : "-", true};
   }
@@ -231,59 +236,36 @@ void LineRepair::drop_colons() {
   }
 }
 
-/// Brackets, colons and digits, where there are some: by itself, as few lines need it, and the page
-/// loads what few need only then.
-[[gnu::noinline]] void LineRepair::read_signs() {
-  drop_brackets();
-  drop_colons();
-  read_branches();
-  read_shifted();
-  read_hexadecimal();
-}
-
 /// `ifelse :up [floor = 1] [floor = 2]`: the branches of Logo.
 void LineRepair::read_branches() {
   auto& tokens = parts_.tokens;
   if (tokens.empty() || !holds("if ifelse when", tokens[0].text))
     return;
-  const auto end_of = [&](std::size_t open) {
-    int depth = 0;
-    for (auto at = open; at < tokens.size(); ++at) {
-      depth += tokens[at].is("[") ? 1 : tokens[at].is("]") ? -1 : 0;
-      if (depth == 0)
-        return at;
-    }
-    return tokens.size();
-  };
   std::size_t open = 2;
   while (open < tokens.size() && !(tokens[open].is("[") && tokens[open].gap))
     ++open;
-  const auto close = end_of(open);
+  const auto close = close_of(tokens, open);
   if (close >= tokens.size() || close < open + 3)
     return; // an index
-  const auto say = [](Token& token, std::string_view word) {
-    token = Token{Token::Kind::Word, std::string(word), true};
-  };
   if (close + 1 < tokens.size()) {
-    const auto second = end_of(close + 1);
-    if (!tokens[close + 1].is("[") || second + 1 != tokens.size())
+    if (!tokens[close + 1].is("[") || close_of(tokens, close + 1) + 1 != tokens.size())
       return;
     tokens[close + 2].gap = true;
     tokens.pop_back();
     tokens.erase(tokens.begin() + static_cast<std::ptrdiff_t>(close));
-    say(tokens[close], "else");
+    tokens[close] = word("else");
   } else {
     tokens.pop_back();
   }
   tokens[open + 1].gap = true;
-  say(tokens[open], "then");
+  tokens[open] = word("then");
   tokens[0].text = "if";
 }
 
 /// `for n = #4E to #62`: as soon as one has a letter they are hexadecimal.
 void LineRepair::read_hexadecimal() {
   auto& tokens = parts_.tokens;
-  if (judge_.language != Language::Basic && judge_.language != Language::Structured)
+  if (!is_program())
     return;
   struct Number {
     std::size_t at = 0;
@@ -317,10 +299,11 @@ void LineRepair::read_hexadecimal() {
   }
 }
 
-/// `let the course be 0`: no word of a program.
-void LineRepair::drop_article() {
+/// `let the course be 0`, `print "I take" and then N`, `read v cm`: words that no program has
+/// there.
+void LineRepair::drop_small_words() {
   auto& tokens = parts_.tokens;
-  if (judge_.language != Language::Basic && judge_.language != Language::Structured)
+  if (!is_program())
     return;
   for (std::size_t i = 1; i + 1 < tokens.size(); ++i)
     if ((tokens[i].is("the") && !has_word(names_, "the")) ||
@@ -328,34 +311,8 @@ void LineRepair::drop_article() {
       take_out(tokens, i--, 1);
   if (tokens.size() > 2 && holds("cm deg degrees px points units", tokens.back().text) &&
       tokens[tokens.size() - 2].is_word() && is_unknown(tokens.back()))
-    tokens.pop_back();       // `read v cm`
-  for (auto& token : tokens) // `goroll zéro,0,0`
-    if (token.is_word() && holds("zero zéro cero null nul", token.text) && is_foreign(token.text))
-      token = Token{Token::Kind::Number, "0", token.gap};
-  for (auto& token : tokens) // `PP = W`
-    if (judge_.language == Language::Basic && token.is_word() &&
-        (token.gap || &token == &tokens[0]) && token.text.size() == 2 &&
-        token.text[0] == token.text[1] && to_lower(token.text[0]) != token.text[0])
-      token.text.resize(1);
-}
-
-/// `(print :a :b)` of Logo, and the end of a block behind a statement: `Y += 5 }`.
-void LineRepair::drop_brackets() {
-  auto& tokens = parts_.tokens;
-  if (tokens.size() < 3 ||
-      (judge_.language != Language::Basic && judge_.language != Language::Structured))
-    return;
-  if (tokens[0].is("(") && tokens.back().is(")") && holds("print type show pr", tokens[1].text)) {
     tokens.pop_back();
-    take_out(tokens, 0, 1);
-  }
-  for (std::size_t i = 1; i + 1 < tokens.size(); ++i) // `call show[]`
-    if (tokens[i].is("[") && tokens[i + 1].is("]") && has_word(names_, tokens[i - 1].text) &&
-        !has_word(judge_.words, tokens[i - 1].text)) {
-      tokens[i].text = "(";
-      tokens[i + 1].text = ")";
-    }
-  for (std::size_t i = 1; i + 1 < tokens.size() && tokens[0].is("print"); ++i) // `"a" and then N`
+  for (std::size_t i = 1; i + 1 < tokens.size() && tokens[0].is("print"); ++i)
     if ((tokens[i].is("and") || tokens[i].is("then")) &&
         (tokens[i - 1].is_text() || tokens[i - 1].is(",") || tokens[i + 1].is_text())) {
       if (tokens[i - 1].is(","))
@@ -363,9 +320,45 @@ void LineRepair::drop_brackets() {
       else
         tokens[i] = Token{Token::Kind::Sign, ","};
     }
+}
+
+/// `goroll zéro,0,0`
+void LineRepair::read_zeros() {
+  for (auto& token : parts_.tokens)
+    if (is_program() && token.is_word() && holds("zero zéro cero null nul", token.text) &&
+        is_foreign(token.text))
+      token = Token{Token::Kind::Number, "0", token.gap};
+}
+
+/// `PP = W`: a variable whose key was hit twice.
+void LineRepair::single_letters() {
+  auto& tokens = parts_.tokens;
+  for (std::size_t i = 0; i < tokens.size() && judge_.language == Language::Basic; ++i) {
+    const auto& text = tokens[i].text;
+    if (tokens[i].is_word() && (tokens[i].gap || i == 0) && text.size() == 2 &&
+        text[0] == text[1] && to_lower(text[0]) != text[0])
+      tokens[i].text.resize(1);
+  }
+}
+
+/// Brackets and colons that others need: `(print :a :b)`, `call show[]`, `Y += 5 }`, `60: P = 1`.
+void LineRepair::drop_brackets() {
+  auto& tokens = parts_.tokens;
+  if (tokens.size() < 3 || !is_program())
+    return;
+  if (tokens[0].is("(") && tokens.back().is(")") && holds("print type show pr", tokens[1].text)) {
+    tokens.pop_back();
+    take_out(tokens, 0, 1);
+  }
+  for (std::size_t i = 1; i + 1 < tokens.size(); ++i)
+    if (tokens[i].is("[") && tokens[i + 1].is("]") && has_word(names_, tokens[i - 1].text) &&
+        !has_word(judge_.words, tokens[i - 1].text)) {
+      tokens[i].text = "(";
+      tokens[i + 1].text = ")";
+    }
   if (tokens.back().is("}") && !tokens[tokens.size() - 2].is(";") && !has_token(tokens, "{"))
     tokens.insert(tokens.end() - 1, Token{Token::Kind::Sign, ";"});
-  if (judge_.language == Language::Basic && tokens[0].is(":")) { // `60: P = 1`
+  if (judge_.language == Language::Basic && tokens[0].is(":")) {
     parts_.head += " ";
     tokens.erase(tokens.begin());
   }
@@ -375,8 +368,7 @@ void LineRepair::drop_brackets() {
 /// the comma beside it.
 void LineRepair::read_shifted() {
   auto& tokens = parts_.tokens;
-  if ((judge_.language != Language::Basic && judge_.language != Language::Structured) ||
-      tokens.size() < 3)
+  if (!is_program() || tokens.size() < 3)
     return;
   const auto count = [&](std::string_view sign) {
     return std::count_if(tokens.begin(), tokens.end(),
@@ -584,7 +576,7 @@ void LineRepair::drop_sigils() {
     return token.is_word() && (token.text.size() == 1 || (judge_.language == Language::Structured &&
                                                           has_word(around_.elsewhere, token.text)));
   };
-  if (judge_.language != Language::Basic && judge_.language != Language::Structured)
+  if (!is_program())
     return;
   for (std::size_t i = 1; i + 1 < tokens.size(); ++i) // `print "macro", #M`
     if (tokens[i].is("#") && tokens[i - 1].is(",") && !tokens[i + 1].gap)
@@ -617,13 +609,7 @@ void LineRepair::index_arrays(const Scenery& scenery) {
   for (std::size_t i = 1; i < tokens.size(); ++i) {
     if (!tokens[i].is("(") || !tokens[i - 1].is_word() || !scenery.is_array(tokens[i - 1].text))
       continue;
-    int depth = 0;
-    auto end = i;
-    for (; end < tokens.size(); ++end) {
-      depth += tokens[end].is("(") ? 1 : tokens[end].is(")") ? -1 : 0;
-      if (depth == 0)
-        break;
-    }
+    const auto end = close_of(tokens, i);
     if (end == tokens.size())
       return;
     tokens[i].text = "[";

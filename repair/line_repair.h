@@ -63,23 +63,30 @@ public:
   std::string shown(std::string_view text) const;
 
 private:
+  /// Whether it is a line of a program, numbered or structured.
+  bool is_program() const {
+    return judge_.language == Language::Basic || judge_.language == Language::Structured;
+  }
   void canonical();
   bool ends_in_name(const Token& text) const;
   void part_line();
   void part_glued();
+  void part_for();
   void part_next();
   void close_text();
   void truths();
   void read_logo();
   void drop_colons();
-  void read_signs();
   void read_branches();
   void read_hexadecimal();
   void read_shifted();
-  void drop_article();
+  void drop_small_words();
+  void read_zeros();
+  void single_letters();
   void drop_pronoun(const Scenery& scenery);
   void drop_brackets();
   void without_accents();
+  void numbers_in_quotes();
   void names_in_quotes();
   void plain_signs();
   void count_percents();

@@ -39,25 +39,29 @@ std::string Scenery::sub_like(std::string_view word) const {
   return like == subs_.end() ? std::string() : like->name;
 }
 
+const Scenery::Sub* Scenery::only_sub(const std::function<bool(const Sub&)>& fits) const {
+  const auto one = std::find_if(subs_.begin(), subs_.end(), fits);
+  return one != subs_.end() && std::find_if(one + 1, subs_.end(), fits) == subs_.end() ? &*one
+                                                                                       : nullptr;
+}
+
+const Scenery::Sub* Scenery::uncalled() const {
+  return only_sub([this](const Sub& sub) { return words_.at(sub.name) == 1; });
+}
+
 std::string Scenery::sub_for(std::string_view word, std::size_t values) const {
   const auto uses = words_.find(std::string(word));
-  const auto uncalled = [this](const Sub& sub) { return words_.at(sub.name) == 1; };
-  const auto only = std::find_if(subs_.begin(), subs_.end(), uncalled);
-  const bool fits = uses != words_.end() && uses->second > 1 && only != subs_.end() &&
-                    only->takes == values &&
-                    std::find_if(only + 1, subs_.end(), uncalled) == subs_.end();
-  return fits ? only->name : std::string();
+  const auto* const sub = uncalled();
+  const bool fits =
+      uses != words_.end() && uses->second > 1 && sub != nullptr && sub->takes == values;
+  return fits ? sub->name : std::string();
 }
 
 std::string Scenery::sub_meant(std::size_t values) const {
-  const auto only = [this](auto fits) {
-    const auto one = std::find_if(subs_.begin(), subs_.end(), fits);
-    return one != subs_.end() && std::find_if(one + 1, subs_.end(), fits) == subs_.end()
-               ? one->name
-               : std::string();
-  };
-  auto uncalled = only([&](const Sub& sub) { return words_.at(sub.name) == 1; });
-  return uncalled.empty() ? only([&](const Sub& sub) { return sub.takes == values; }) : uncalled;
+  const auto* sub = uncalled();
+  if (sub == nullptr)
+    sub = only_sub([&](const Sub& one) { return one.takes == values; });
+  return sub == nullptr ? std::string() : sub->name;
 }
 
 Scenery::Scenery(const Source& source, Language language) : source_(source), language_(language) {

@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <optional>
 #include <set>
@@ -86,6 +87,11 @@ private:
     std::string name;
     std::size_t takes = 0; ///< values
   };
+  /// The one sub for which `fits` is true; null where it is true for none or for several.
+  const Sub* only_sub(const std::function<bool(const Sub&)>& fits) const;
+  /// The one sub that nobody calls; null without, or with several.
+  const Sub* uncalled() const;
+
   struct Roll {
     std::uint32_t line = 0;
     int heading = 0;  ///< 0 where it is no number

@@ -368,6 +368,20 @@ Tokens slice(const Tokens& tokens, std::size_t begin, std::size_t end) {
           at + static_cast<std::ptrdiff_t>(end)};
 }
 
+std::size_t close_of(const Tokens& tokens, std::size_t open) {
+  if (open >= tokens.size())
+    return tokens.size();
+  const std::string_view opening = tokens[open].text;
+  const auto closing = opening == "(" ? ")" : opening == "[" ? "]" : "}";
+  int depth = 0;
+  for (auto at = open; at < tokens.size(); ++at) {
+    depth += tokens[at].is(opening) ? 1 : tokens[at].is(closing) ? -1 : 0;
+    if (depth == 0)
+      return at;
+  }
+  return tokens.size();
+}
+
 Token word(std::string_view text) {
   return Token{Token::Kind::Word, std::string(text), true};
 }

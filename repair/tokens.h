@@ -64,6 +64,9 @@ bool has_token(const Tokens& tokens, std::string_view text);
 /// The tokens from `begin` to before `end`, as far as there are some.
 Tokens slice(const Tokens& tokens, std::size_t begin, std::size_t end = SIZE_MAX);
 
+/// Where the bracket ends that the token at `open` opens; the number of tokens where it does not.
+std::size_t close_of(const Tokens& tokens, std::size_t open);
+
 /// A word with a blank before it.
 Token word(std::string_view text);
 

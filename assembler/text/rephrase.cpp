@@ -314,12 +314,13 @@ std::vector<Rephrased> rephrase_command(const spec::MacroCommandInfo& info, cons
                        : std::vector<Rephrased>{{text + "\n" + waits, arranged->sure}};
 }
 
+constexpr std::size_t stem_letters = 4; // that tell a flag from the others
+
 /// Whether words are of the same stems in any order: `controllo_motore` and `motor_control`.
 bool have_same_stems(std::vector<std::string> said, std::vector<std::string> meant) {
-  constexpr std::size_t compared = 4;
-  const auto stem = [compared](std::vector<std::string>& words) {
+  const auto stem = [](std::vector<std::string>& words) {
     for (auto& word : words)
-      word.resize(std::min(word.size(), compared));
+      word.erase(std::min(word.size(), stem_letters));
     std::sort(words.begin(), words.end());
   };
   stem(said);
@@ -353,10 +354,9 @@ std::vector<Rephrased> rephrase_header(const Tokens& line) {
     for (const auto& row : spec::macro_flags) {
       std::string bare(row.word);
       std::erase(bare, '_');
-      constexpr std::size_t stem = 4; // letters: `motor`
       const bool turned = have_same_stems(repair::parts_of(written), repair::parts_of(row.word));
       if (turned || equal_words(bare, joined) ||
-          (joined.size() > stem && bare.starts_with(lower(joined)))) {
+          (joined.size() > stem_letters && bare.starts_with(lower(joined)))) { // `motor`
         flags.emplace_back(row.word);
         flag.clear();
         return true;

@@ -16,20 +16,10 @@ namespace orb::testing {
 namespace {
 
 using repair::append;
+using repair::close_of;
 using repair::Token;
 using repair::Tokens;
 using repair::word;
-
-/// Where the parenthesis ends that token `open` opens; the size of the line without an end.
-std::size_t close_of(const Tokens& line, std::size_t open) {
-  int depth = 0;
-  for (auto at = open; at < line.size(); ++at) {
-    depth += line[at].is("(") ? 1 : line[at].is(")") ? -1 : 0;
-    if (depth == 0)
-      return at;
-  }
-  return line.size();
-}
 
 /// What is tested, as test files call it.
 std::string_view subject_of(std::string_view written) {
@@ -320,12 +310,22 @@ Tokens without_signs(const Tokens& line) {
 }
 
 std::optional<double> centimetres_in(std::string_view unit) {
-  constexpr double metre_cm = 100;
-  constexpr double millimetre_cm = 0.1;
-  return unit == "cm"   ? std::optional(1.0)
-         : unit == "m"  ? std::optional(metre_cm)
-         : unit == "mm" ? std::optional(millimetre_cm)
-                        : std::nullopt;
+  struct Unit {
+    std::string_view words;
+    double cm;
+  };
+  constexpr auto units = std::to_array<Unit>({
+      {"cm", 1},
+      {"m", 100},
+      {"mm", 0.1},
+      {"dm decimetre decimeter dezimeter", 10},
+      {"in inch inches zoll", 2.54},
+      {"ft foot feet", 30.48},
+      {"yd yard yards", 91.44},
+  });
+  const auto found = std::find_if(units.begin(), units.end(),
+                                  [&](const Unit& one) { return holds(one.words, unit); });
+  return found == units.end() ? std::nullopt : std::optional(found->cm);
 }
 
 Tokens plain_places(const Tokens& line) {

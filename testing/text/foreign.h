@@ -23,7 +23,10 @@ repair::Tokens with_plain_values(const repair::Tokens& line);
 /// Without the signs of YAML and JSON: `at: 1s push: [90, 120]`.
 repair::Tokens without_signs(const repair::Tokens& line);
 
-/// How many centimetres a unit of length is: `cm`, `m`, `mm`; nothing for other words.
+/// Whether a word says that something is printed, in any of the languages.
+bool says_print(const repair::Token& token);
+
+/// How many centimetres a unit of length is, of this country or another; nothing for other words.
 std::optional<double> centimetres_in(std::string_view unit);
 
 /// Places in centimetres without their unit, as `beyond` and `wall` take them: `x>0.7m` is `x>70`;

@@ -15,27 +15,11 @@ namespace orb::testing {
 namespace {
 
 using repair::append;
+using repair::close_of;
 using repair::Language;
 using repair::Token;
 using repair::Tokens;
 using repair::word;
-
-bool says_print(const Token& token) {
-  return token.is_word() && (token.is("print") || repair::is_called("print", token.text));
-}
-
-/// Where the bracket ends that token `open` opens; the size of the line without an end.
-std::size_t end_of(const Tokens& line, std::size_t open) {
-  const std::string_view opening = line[open].text;
-  const auto closing = opening == "(" ? ")" : opening == "[" ? "]" : "}";
-  int depth = 0;
-  for (auto at = open; at < line.size(); ++at) {
-    depth += line[at].is(opening) ? 1 : line[at].is(closing) ? -1 : 0;
-    if (depth == 0)
-      return at;
-  }
-  return line.size();
-}
 
 /// `print [yes! in 5 tries]` and `test [is patient]`: the texts of Logo.
 Tokens with_quotes_for_brackets(const Tokens& line) {
@@ -43,7 +27,7 @@ Tokens with_quotes_for_brackets(const Tokens& line) {
   for (std::size_t i = 0; i < line.size(); ++i) {
     const bool opens = i > 0 && line[i].is("[") && line[i].gap &&
                        (says_print(line[i - 1]) || line[i - 1].is("test"));
-    const auto close = opens ? end_of(line, i) : line.size();
+    const auto close = opens ? close_of(line, i) : line.size();
     if (close >= line.size() || close == i + 1) {
       all.push_back(line[i]);
       continue;
@@ -60,7 +44,7 @@ Tokens with_quotes_for_brackets(const Tokens& line) {
 Tokens with_plain_colours(const Tokens& line) {
   Tokens all;
   for (std::size_t i = 0; i < line.size(); ++i) {
-    const auto close = line[i].is("{") ? end_of(line, i) : line.size();
+    const auto close = line[i].is("{") ? close_of(line, i) : line.size();
     std::string hex;
     for (auto at = i + 1; close < line.size() && at + 2 <= close; ++at)
       if (line[at].is(":") && line[at + 1].is_number())
@@ -105,7 +89,7 @@ Tokens with_plain_calls(const Tokens& line) {
   Tokens all;
   for (std::size_t i = 0; i < line.size(); ++i) {
     const bool prints = i > 0 && line[i].is("(") && says_print(line[i - 1]);
-    const auto close = prints ? end_of(line, i) : line.size();
+    const auto close = prints ? close_of(line, i) : line.size();
     if (close < line.size() && line[i + 1].is_text() && line[i + 2].is(",")) {
       all.push_back(line[i + 1]);
       all.back().gap = true;
@@ -114,7 +98,7 @@ Tokens with_plain_calls(const Tokens& line) {
     }
     const bool waits = i == 1 && line[i].is("(") && line[0].is("expect") && line.size() > 5 &&
                        line[2].is_word() && line[3].is(",") && line[4].is_text();
-    if (waits && end_of(line, i) == 5) {
+    if (waits && close_of(line, i) == 5) {
       all.push_back(line[2]);
       all.back().gap = true;
       append(all, repair::tokens_of(line[4].text, Language::Test));
@@ -128,10 +112,11 @@ Tokens with_plain_calls(const Tokens& line) {
     all.push_back(word("times"));
   }
   if (all.size() > 5 && all[1].is("(") && (all[0].is("expect") || all[0].is("never")) &&
-      all[3].is_relation() && end_of(all, 1) == 5) { // `expect (inside == garage) at end`
+      all[3].is_relation() && close_of(all, 1) == 5) { // `expect (inside == garage) at end`
     all[2].gap = all[4].gap = true;
-    all = Tokens{all[0], all[2], all[4]};
-    append(all, repair::slice(line, 6));
+    all.erase(all.begin() + 5);
+    all.erase(all.begin() + 3);
+    all.erase(all.begin() + 1);
   }
   for (std::size_t i = 1; i + 1 < all.size(); ++i) {
     const bool after_text =
@@ -239,8 +224,8 @@ Tokens with_test(Tokens line) {
 Tokens with_beyond(Tokens line) {
   if (line.size() > 4 && (line[0].is("never") || line[0].is("expect")) && line[1].is("(") &&
       (line[2].is("x") || line[2].is("y")) && line[3].is_relation() &&
-      end_of(line, 1) < line.size()) { // `never (y < -90)`
-    line.erase(line.begin() + static_cast<std::ptrdiff_t>(end_of(line, 1)));
+      close_of(line, 1) < line.size()) { // `never (y < -90)`
+    line.erase(line.begin() + static_cast<std::ptrdiff_t>(close_of(line, 1)));
     line[1] = word("beyond");
     return line;
   }
@@ -304,23 +289,13 @@ Tokens with_name(const Tokens& line) {
   return all;
 }
 
-/// A length in units of other countries, and how many centimetres they are.
-std::optional<double> foreign_length(const Token& unit) {
-  constexpr double inch_cm = 2.54;
-  constexpr double foot_cm = 30.48;
-  constexpr double yard_cm = 91.44;
-  return holds("in inch inches zoll", unit.text)                ? std::optional(inch_cm)
-         : holds("ft foot feet", unit.text)                     ? std::optional(foot_cm)
-         : holds("yd yard yards", unit.text)                    ? std::optional(yard_cm)
-         : holds("dm decimetre decimeter dezimeter", unit.text) ? std::optional(10.0)
-                                                                : std::nullopt;
-}
-
+/// `6in` is `15cm`; what is in metres stays.
 Tokens with_metric_lengths(Tokens line) {
   for (std::size_t i = 1; i < line.size(); ++i) {
-    if (!line[i - 1].is_number() || !line[i].is_word() || (line[i].gap && line[i].is("in")))
+    if (!line[i - 1].is_number() || !line[i].is_word() || holds("cm m mm", line[i].text) ||
+        (line[i].gap && line[i].is("in")))
       continue;
-    if (const auto cm = foreign_length(line[i])) {
+    if (const auto cm = centimetres_in(line[i].text)) {
       const auto value =
           parse_number<double>(line[i - 1].text, std::chars_format::fixed).value_or(0) * *cm;
       line[i - 1].text = std::to_string(std::lround(value));
@@ -331,6 +306,10 @@ Tokens with_metric_lengths(Tokens line) {
 }
 
 } // namespace
+
+bool says_print(const Token& token) {
+  return token.is_word() && (token.is("print") || repair::is_called("print", token.text));
+}
 
 Tokens with_plain_values(const Tokens& line) {
   const auto plain = with_test(with_beyond(with_and(with_signs_apart(line))));

@@ -200,9 +200,6 @@ std::optional<std::string> near(const Tokens& values, const Tokens& by, const st
         token.is("by") || token.is("at") || token.is("<") || token.is("<=") ||
         token.is("within")) // a length is no time
       continue;
-    const bool missing = i > 1 && values[i - 1].is("by") && numbers.size() < 2;
-    if (missing)
-      return std::nullopt; // `near 0, by 40cm`
     const bool sign = token.is("-") && i + 1 < values.size() && values[i + 1].is_number();
     if (!token.is_number() && !sign)
       return std::nullopt;
@@ -1046,8 +1043,7 @@ Tokens unwrapped(const Tokens& line) {
   for (std::size_t i = 0; i < line.size(); ++i) {
     const bool value = i + 2 < line.size() && (line[i + 1].is_text() || line[i + 1].is_word());
     const bool prints = i > 0 && value && line[i].is("(") && line[i + 1].is_text() &&
-                        line[i + 2].is(")") && line[i - 1].is_word() &&
-                        (line[i - 1].is("print") || repair::is_called("print", line[i - 1].text));
+                        line[i + 2].is(")") && says_print(line[i - 1]);
     if (prints) {
       all.push_back(line[i + 1]);
       all.back().gap = true;
@@ -1076,8 +1072,7 @@ std::string prints_below(const Tokens& line, const Elsewhere& elsewhere) {
     return {};
   const auto word = std::find_if(line.begin() + 1, line.end(),
                                  [](const Token& token) { return token.is_word(); });
-  const bool says = word != line.end() && (word->is("print") || word->is("prints") ||
-                                           repair::is_called("print", word->text) ||
+  const bool says = word != line.end() && (says_print(*word) || word->is("prints") ||
                                            repair::is_called("prints", word->text));
   const bool ends =
       says && std::all_of(word + 1, line.end(), [](const Token& token) {
