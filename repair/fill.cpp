@@ -125,7 +125,9 @@ Text written_time(const Tokens& tokens, Assume assume, Language language) {
   constexpr std::int64_t longest_ms =
       1'000'000; // nobody waits so long: `delay 1000s` counted in ms
   if (auto time = time_of(tokens, assume)) {
-    if (time->ms >= longest_ms && time->ms % second_ms == 0)
+    if (time->ms >= longest_ms && tokens.back().is("m")) // `500m`: a letter lacks
+      time->ms /= 60 * second_ms;
+    else if (time->ms >= longest_ms && time->ms % second_ms == 0)
       time->ms /= second_ms;
     if (language == Language::Basic || !time->has_unit)
       return std::to_string(time->ms);
@@ -221,11 +223,10 @@ Text fraction(const Tokens& tokens, bool inverse) {
 Text channels(const Tokens& tokens) {
   if (tokens.size() == 1)
     return write_colour("rgb", tokens);
-  Tokens plain;
-  for (const auto& token : tokens)
-    if (!token.is("(") && !token.is(")") && !token.is("[") && !token.is("]"))
-      plain.push_back(token);
-  return join(plain);
+  const bool open = tokens.size() > 2 && (tokens[0].is("(") || tokens[0].is("["));
+  return open && close_of(tokens, 0) + 1 == tokens.size()
+             ? join(slice(tokens, 1, tokens.size() - 1))
+             : join(tokens);
 }
 
 /// `int n, int m`: the names alone.
@@ -595,6 +596,8 @@ Text name_of(std::string_view name, const Holes& holes, const Surroundings& arou
     return known(around.loop);
   if (name == "returns") // in a program that calls subroutines
     return has(around.elsewhere, "gosub") ? Text("return") : std::nullopt;
+  if (name == "leaves") // at the end of a subroutine
+    return around.ends_sub ? Text("return") : std::nullopt;
   if (name == "label")
     return known(around.label);
   if (name == "closer" && around.closer == "-")

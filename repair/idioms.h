@@ -50,6 +50,7 @@ struct Surroundings {
   std::string pace;                    ///< its speed; empty where the ball rests
   std::string label;                   ///< of a structured program, where it has only one
   bool in_function = false;            ///< of a structured program
+  bool ends_sub = false;               ///< the last line of what `gosub` leads to, in orbBasic
   std::string closer;                  ///< what ends the innermost open block
   std::vector<std::string_view> names; ///< that other lines use, too; of orbBasic: that they set
   std::vector<std::string_view> elsewhere; ///< all words of other lines

@@ -33,6 +33,12 @@ bool LineRepair::keeps_meaning(std::string_view statement) const {
     return false; // of what?
   if (judge_.language == Language::Macro && !keeps_operands(statement))
     return false;
+  if (judge_.language == Language::Test && statement.starts_with("expect ") &&
+      std::any_of(tokens.begin(), tokens.end(), [](const Token& token) {
+        return token.is_word() && (token.is("not") || is_called("never", token.text) ||
+                                   mean_the_same("not", token.text));
+      }))
+    return false; // the opposite
   return keeps_names(statement) && !adds_condition(statement);
 }
 
@@ -43,6 +49,14 @@ bool LineRepair::keeps_operands(std::string_view statement) const {
   if (statement.empty())
     return std::none_of(tokens.begin(), tokens.end(),
                         [](const Token& token) { return token.is_number(); });
+  const bool pair = tokens.size() == 3 && tokens[1].is_number() && tokens[2].is_number() &&
+                    tokens[1].text != tokens[2].text;
+  const auto numbers = std::count_if(tokens.begin(), tokens.end(),
+                                     [](const Token& token) { return token.is_number(); });
+  if ((pair || numbers > 2) &&
+      (statement.starts_with("delay ") || statement.starts_with(".const ")) &&
+      statement.find('\n') == std::string_view::npos)
+    return false; // what are the others for?
   return tokens.size() != 2 || !holds("goto gosub on_collision", tokens[0].text) ||
          !tokens[1].is_word() || !is_digit(statement.back());
 }

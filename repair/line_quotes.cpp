@@ -31,9 +31,13 @@ void put_in_quote(const std::string& text, std::vector<Requoted>& all) {
     const bool sign = !end && std::string_view(",;+").find(text[at]) != std::string_view::npos;
     const bool blank = !end && is_blank(text[at]);
     const bool word = !end && at > 0 && is_letter(text[at]) && !is_letter(text[at - 1]);
+    const bool after_sign =
+        blank && at > 0 && std::string_view("=:").find(text[at - 1]) != std::string_view::npos;
     if (closes ? end || sign || blank : word || sign) {
-      all.push_back({text, closes && blank ? odd_place : !closes && sign ? 1 : 0});
-      all.back().text.insert(at, "\"");
+      all.push_back({text, closes && blank   ? (after_sign ? 1 : odd_place)
+                           : !closes && sign ? 1
+                                             : 0});
+      all.back().text.insert(after_sign ? at + 1 : at, after_sign ? "\" " : "\"");
     }
     closes = closes != (!end && text[at] == '"');
   }
@@ -128,6 +132,9 @@ std::optional<int> LineRepair::cost_of_texts(std::string_view statement) const {
   for (std::size_t i = 0; i < tokens.size(); ++i) {
     if (tokens[i].is_word() && !is_value(tokens[i]))
       return std::nullopt;
+    if (i > 1 && tokens[i].is_word() && tokens[i - 1].is(",") &&
+        tokens[i - 2].text == tokens[i].text)
+      cost += odd_place; // `"lost", longest, longest`
     if (!tokens[i].is_text())
       continue;
     const std::string_view said = tokens[i].text;
@@ -135,6 +142,10 @@ std::optional<int> LineRepair::cost_of_texts(std::string_view statement) const {
       return std::nullopt;
     for (const auto& token : tokens_of(said, judge_.language))
       cost += is_value(token) ? name_in_text : 0;
+    const bool touches =
+        (i > 0 && tokens[i - 1].is_word() && !tokens[i].gap && !tokens[i - 1].is("print")) ||
+        (i + 1 < tokens.size() && tokens[i + 1].is_word() && !tokens[i + 1].gap);
+    cost += touches ? odd_place + 1 : 0; // `lost", "lost`
     const bool begins_between = std::string_view(",;").find(said[0]) != std::string_view::npos &&
                                 said.find_first_not_of(",; ") != std::string_view::npos;
     cost += begins_between ? odd_place : 0;
@@ -148,7 +159,7 @@ std::vector<std::string> LineRepair::with_one_quote() const {
   const std::string text(trim(line_.substr(std::min(parts_.head.size(), line_.size()))));
   constexpr std::size_t longest = 160;
   if (!is_program() || std::count(text.begin(), text.end(), '"') % 2 == 0 ||
-      text.size() > longest || !has_token(parts_.tokens, "print"))
+      text.size() > longest || !has_token(parts_.tokens, "print") || text.ends_with('\''))
     return {};
   std::vector<Requoted> all;
   put_in_quote(text, all);

@@ -15,18 +15,6 @@
 // tried.
 
 namespace orb::repair {
-namespace {
-
-/// Takes tokens out; what follows has the blank that stood before them.
-void take_out(Tokens& tokens, std::size_t at, std::size_t count) {
-  const auto first = tokens.begin() + static_cast<std::ptrdiff_t>(at);
-  if (at + count < tokens.size())
-    tokens[at + count].gap = first->gap;
-  tokens.erase(first, first + static_cast<std::ptrdiff_t>(count));
-}
-
-} // namespace
-
 /// Words in their documented spelling where the robot looks at case, numbers without `0x`.
 void LineRepair::canonical() {
   auto& tokens = parts_.tokens; // `print "A is " A"`: the last quote is too many
@@ -48,6 +36,10 @@ void LineRepair::canonical() {
   drop_colons();
   read_branches();
   read_shifted();
+  read_missed();
+  drop_types();
+  robots_variables();
+  read_thousands();
   read_hexadecimal();
   plain_signs();
   part_line();
@@ -191,6 +183,9 @@ void LineRepair::plain_signs() {
     return;
   for (std::size_t i = 2; i + 1 < parts_.tokens.size(); ++i) { // `60 plus tilt`
     auto& token = parts_.tokens[i];
+    if (is_program() && token.is("percent") && is_unknown(token) && !parts_.tokens[0].is("print") &&
+        (is_variable(parts_.tokens[i - 1]) || parts_.tokens[i - 1].is(")")))
+      token = Token{Token::Kind::Sign, "%", true}; // `n percent d`
     if (is_program() && (token.is("plus") || token.is("minus")) && !has_word(names_, token.text) &&
         !parts_.tokens[i - 1].is("=") && !parts_.tokens[0].is("print"))
       token = Token{Token::Kind::Sign, token.is("plus") ? "+" : "-", true};
@@ -207,9 +202,20 @@ void LineRepair::plain_signs() {
     }
 }
 
-/// `make "side :side + 5` and `setpc "blue`: the words of Logo have one quote, its values a colon.
+/// `make "side :side + 5` and `setpc "blue`: the words of Logo have one quote, its values a colon,
+/// its texts brackets.
 void LineRepair::read_logo() {
   auto& tokens = parts_.tokens;
+  const std::size_t print = tokens.size() > 2 && tokens[0].is("(") ? 1 : 0;
+  for (std::size_t i = print + 1; i < tokens.size() && is_program() && tokens[print].is("print");
+       ++i) {
+    const auto close = tokens[i].is("[") && tokens[i].gap ? close_of(tokens, i) : tokens.size();
+    if (close == tokens.size() || close < i + 2 || !tokens[i + 1].is_word())
+      continue; // `print [longest hold] :longest`
+    const Token text{Token::Kind::Text, join(slice(tokens, i + 1, close)), true};
+    const auto at = tokens.begin() + static_cast<std::ptrdiff_t>(i);
+    tokens.insert(tokens.erase(at, tokens.begin() + static_cast<std::ptrdiff_t>(close) + 1), text);
+  }
   const auto size = tokens.size();
   if (size < 2 || !tokens[size - 1].is_text() || tokens[size - 1].closed ||
       !holds("make go setpc setpencolor setcolor setcolour", tokens[size - 2].text))
@@ -303,12 +309,25 @@ void LineRepair::read_hexadecimal() {
 /// there.
 void LineRepair::drop_small_words() {
   auto& tokens = parts_.tokens;
+  for (std::size_t i = 1; i + 2 < tokens.size(); ++i) // `marker no. 13`
+    if (holds("no nr nº num", tokens[i].text) && tokens[i + 1].is(".") && !tokens[i + 1].gap)
+      take_out(tokens, i, 2);
   if (!is_program())
     return;
   for (std::size_t i = 1; i + 1 < tokens.size(); ++i)
     if ((tokens[i].is("the") && !has_word(names_, "the")) ||
         (tokens[i].is("and") && tokens[i - 1].is(",")))
       take_out(tokens, i--, 1);
+  for (std::size_t i = 2; i < tokens.size(); ++i) { // `side += 2 tenths`, `for n = 1 to 5 seconds`
+    const bool counts =
+        holds("tenths units points cm mm deg degrees px", tokens[i].text) ||
+        (tokens[0].is("for") && milliseconds_of(tokens[i].text) > 0 && tokens[i].gap);
+    const bool ends =
+        i + 1 == tokens.size() || tokens[i + 1].is("else") || tokens[i + 1].is("then");
+    if (counts && ends && tokens[i - 1].is_number() && tokens[i].is_word() &&
+        is_unknown(tokens[i]) && !tokens[0].is("print"))
+      take_out(tokens, i--, 1);
+  }
   if (tokens.size() > 2 && holds("cm deg degrees px points units", tokens.back().text) &&
       tokens[tokens.size() - 2].is_word() && is_unknown(tokens.back()))
     tokens.pop_back();
@@ -361,44 +380,6 @@ void LineRepair::drop_brackets() {
   if (judge_.language == Language::Basic && tokens[0].is(":")) {
     parts_.head += " ";
     tokens.erase(tokens.begin());
-  }
-}
-
-/// Digits typed for the signs on their keys: `next_of9n)`, `delay L 8 75`, `M 5 10`; and `m` for
-/// the comma beside it.
-void LineRepair::read_shifted() {
-  auto& tokens = parts_.tokens;
-  if (!is_program() || tokens.size() < 3)
-    return;
-  const auto count = [&](std::string_view sign) {
-    return std::count_if(tokens.begin(), tokens.end(),
-                         [&](const Token& token) { return token.is(sign); });
-  };
-  for (std::size_t i = 0; i < tokens.size() && count(")") > count("("); ++i) {
-    const auto nine = tokens[i].is_word() ? tokens[i].text.find('9') : std::string::npos;
-    if (nine == std::string::npos || nine == 0)
-      continue;
-    auto rest = tokens_of(std::string_view(tokens[i].text).substr(nine + 1), judge_.language);
-    tokens[i].text.resize(nine);
-    rest.insert(rest.begin(), Token{Token::Kind::Sign, "("});
-    tokens.insert(tokens.begin() + static_cast<std::ptrdiff_t>(i) + 1, rest.begin(), rest.end());
-  }
-  const auto is_value = [&](const Token& token) {
-    return token.is(")") ||
-           (token.is_word() && (token.text.size() == 1 || has_word(names_, token.text)));
-  };
-  for (std::size_t i = 1; i + 1 < tokens.size(); ++i) {
-    auto& token = tokens[i];
-    const bool apart = token.gap && tokens[i + 1].gap;
-    const bool operand =
-        tokens[i + 1].is_number() || tokens[i + 1].is("(") || is_value(tokens[i + 1]);
-    if ((token.is("8") || token.is("5")) && apart && operand && is_value(tokens[i - 1]) &&
-        !tokens[0].is("print") && !tokens[0].is("data"))
-      token = Token{Token::Kind::Sign, token.is("8") ? "*" : "%", true};
-    const bool after_value = tokens[i - 1].is_text() || tokens[i - 1].is_number();
-    if (token.is("m") && !token.gap && tokens[i + 1].gap && after_value &&
-        (tokens[i + 1].is_number() || is_value(tokens[i + 1])))
-      token = Token{Token::Kind::Sign, ","};
   }
 }
 
@@ -469,6 +450,9 @@ void LineRepair::drop_objects() {
   auto& tokens = parts_.tokens;
   if (tokens.empty() || tokens[0].is("program") || tokens[0].is("with") || tokens[0].is("course"))
     return;
+  for (std::size_t i = 2; i < tokens.size(); ++i) // `resting == True`
+    if (tokens[i].is_word() && equal_words(tokens[i].text, "true") && tokens[i - 1].is("="))
+      take_out(tokens, --i, 2);
   for (std::size_t i = 0; i + 2 < tokens.size(); ++i) // `garage.inside`
     if (tokens[i].is_word() && tokens[i + 1].is(".") && !tokens[i + 1].gap &&
         tokens[i + 2].is("inside") && !holds("robot ball sphero bot program", tokens[i].text)) {
@@ -479,7 +463,7 @@ void LineRepair::drop_objects() {
   for (std::size_t i = 0; i + 2 < tokens.size(); ++i)
     if (tokens[i].is_word() && tokens[i + 1].is(".") && !tokens[i + 1].gap &&
         tokens[i + 2].is_word() && !tokens[i + 2].is("macro") && !tokens[i + 2].is("test") &&
-        (i > 0 || !has_word(judge_.words, tokens[i].text)) &&
+        !tokens[i].is("not") && (i > 0 || !has_word(judge_.words, tokens[i].text)) &&
         (has_word(judge_.words, tokens[i + 2].text) || is_called("print", tokens[i + 2].text) ||
          is_called("input", tokens[i + 2].text)))
       take_out(tokens, i, 2);
@@ -516,7 +500,8 @@ void LineRepair::count_percents() {
   for (std::size_t i = 2; i < tokens.size(); ++i) {
     const auto value = parse_number<int>(tokens[i - 1].text);
     constexpr int all = 100;
-    const bool ends = i + 1 == tokens.size() || tokens[i + 1].is(",") || tokens[i + 1].is(")");
+    const bool ends = i + 1 == tokens.size() || tokens[i + 1].is(",") || tokens[i + 1].is(")") ||
+                      tokens[i + 1].is("*") || tokens[i + 1].is("/");
     if (!tokens[i].is("%") || !tokens[i - 1].is_number() || !value || *value > all || !ends)
       continue;
     tokens[i - 1].text = std::to_string((*value * UINT8_MAX + all / 2) / all);
@@ -581,6 +566,9 @@ void LineRepair::drop_sigils() {
   for (std::size_t i = 1; i + 1 < tokens.size(); ++i) // `print "macro", #M`
     if (tokens[i].is("#") && tokens[i - 1].is(",") && !tokens[i + 1].gap)
       take_out(tokens, i, 1);
+  if (tokens.size() > 2 && tokens[0].text.size() == 1 && tokens[1].is("#") &&
+      tokens[2].is("=")) // `B# = Q`
+    take_out(tokens, 1, 1);
   for (std::size_t i = 1; i + 1 < tokens.size(); ++i) // `STR$(F)`
     if (tokens[i].is("$") && !tokens[i].gap && tokens[i - 1].is_word() && tokens[i + 1].is("("))
       tokens.erase(tokens.begin() + static_cast<std::ptrdiff_t>(i));

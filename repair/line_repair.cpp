@@ -23,6 +23,11 @@ constexpr int surely = 6;                // one letter of a word
 constexpr int clearly = 4;               // by so much the best change is cheaper than the next
 constexpr std::uint32_t usual_step = 10; // of line numbers
 
+/// Whether a text can only be the name of a file.
+bool names_a_file(std::string_view text) {
+  return text.find(' ') == std::string_view::npos && text.find('.') != std::string_view::npos;
+}
+
 /// Errors that no fix mends by itself.
 std::size_t lasting_errors(const std::vector<Diagnostic>& findings) {
   return static_cast<std::size_t>(
@@ -77,6 +82,10 @@ std::vector<Accepted> LineRepair::find(const Diagnostic& finding) {
   const auto& tokens = parts_.tokens;
   if (tokens.size() > most_tokens)
     return {};
+  if (judge_.language == Language::Macro && !tokens.empty() && tokens[0].is_number())
+    name_command();
+  if (best_)
+    return other_ ? std::vector{*best_, *other_} : std::vector{*best_};
   if (tokens.size() > 1 && tokens[0].is_number() && tokens[1].is_number())
     return {}; // of what?
   if (judge_.language == Language::Macro && tokens.size() == 1 && !around_.closer.empty() &&
@@ -85,6 +94,10 @@ std::vector<Accepted> LineRepair::find(const Diagnostic& finding) {
   if (judge_.language == Language::Test && parts_.head.empty() && tokens.size() == 1 &&
       tokens[0].is_text())
     attempt("test " + join(tokens), {}, false);
+  if (judge_.language == Language::Test && parts_.head.empty() && tokens.size() == 2 &&
+      tokens[1].is_text() && is_foreign(tokens[0].text) && !names_a_file(tokens[1].text) &&
+      !is_called("print", tokens[0].text))
+    attempt("test " + join({tokens[1]}), {}, false); // `comprobar "goes home"`
   if (judge_.language == Language::Structured)
     own_words();
   const auto start = join(parts_.tokens);
@@ -128,7 +141,7 @@ std::vector<Accepted> LineRepair::find(const Diagnostic& finding) {
     return token.is_text() && token.text.find("${") != std::string::npos; // `${N} tries`
   });
   if (!best_ && !filled && whole(start) != line_)
-    attempt(start, {}, true);
+    attempt(start, {}, !guessed_);
 
   const bool known = is_known_word(parts_.tokens.empty() ? "" : parts_.tokens[0].text, Where::Line);
   if (!best_ && !known) {
@@ -169,20 +182,28 @@ std::optional<Accepted> LineRepair::in_milliseconds() {
   constexpr int half_second = 30; // sixtieths
   constexpr int most_ticks = 600;
   const auto& tokens = parts_.tokens;
-  if (tokens.size() != 2 || !tokens[1].is_number() ||
-      parse_number<int>(tokens[1].text).value_or(0) < few ||
+  constexpr std::string_view in_seconds = " * 1000";
+  if (best_->text.ends_with(in_seconds) && !has_token(tokens, "1000")) // `time.sleep(pause)`
+    return attempt_line(best_->text.substr(0, best_->text.size() - in_seconds.size()), best_->note,
+                        false, false);
+  if (tokens.size() < 2)
+    return std::nullopt;
+  const bool calls = tokens.size() == 4 && tokens[1].is("(") && tokens[3].is(")"); // `pause(20)`
+  const auto& value = tokens[calls ? 2 : tokens.size() - 1];
+  if (!(calls || tokens.size() == 2) || !value.is_number() ||
+      parse_number<int>(value.text).value_or(0) < few ||
       best_->text.find('\n') != std::string::npos)
     return std::nullopt;
-  if (const auto ticks = parse_number<int>(tokens[1].text).value_or(0); // sixtieths, in Logo
+  if (const auto ticks = parse_number<int>(value.text).value_or(0); // sixtieths, in Logo
       tokens[0].is("wait") && ticks % half_second == 0 && ticks <= most_ticks &&
-      judge_.language != Language::Macro && best_->text.ends_with(" " + tokens[1].text)) {
-    const auto before = best_->text.substr(0, best_->text.size() - tokens[1].text.size());
+      judge_.language != Language::Macro && best_->text.ends_with(" " + value.text)) {
+    const auto before = best_->text.substr(0, best_->text.size() - value.text.size());
     const auto ms = ticks / half_second * 500;
     return attempt_line(
         before + (judge_.language == Language::Basic ? std::to_string(ms) : time_text(ms)),
         best_->note, false, false);
   }
-  const auto number = " " + tokens[1].text;
+  const auto number = " " + value.text;
   const std::string_view line = best_->text;
   if (line.ends_with(number + "000"))
     return attempt_line(best_->text.substr(0, line.size() - 3), best_->note, false, false);
@@ -386,6 +407,23 @@ bool LineRepair::rephrase(const Tokens& line) {
     return true;
   }
   return false;
+}
+
+/// `0 200 255`: values whose command was forgotten.
+void LineRepair::name_command() {
+  const auto& tokens = parts_.tokens;
+  if (std::any_of(tokens.begin(), tokens.end(),
+                  [](const Token& token) { return !token.is_number() && !token.is(","); }))
+    return;
+  const auto values = tokens.size() - static_cast<std::size_t>(count_of(","));
+  const auto line = join(parts_.tokens);
+  if (values == 4)
+    attempt("fade " + line, {}, false);
+  if (values != 3)
+    return;
+  attempt("rgb " + line, {}, false);
+  if (best_)
+    other_ = attempt_line(whole("roll " + line), {}, false, false);
 }
 
 /// Applies habits until the line is one.

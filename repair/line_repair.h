@@ -79,7 +79,19 @@ private:
   void drop_colons();
   void read_branches();
   void read_hexadecimal();
+  bool is_variable(const Token& token) const;
+  std::ptrdiff_t count_of(std::string_view sign) const;
   void read_shifted();
+  void close_by_key();
+  void comma_for_point();
+  void join_words();
+  void decimal_comma();
+  void missed_sign(std::size_t at);
+  void missed_else();
+  void read_missed();
+  void drop_types();
+  void robots_variables();
+  void read_thousands();
   void drop_small_words();
   void read_zeros();
   void single_letters();
@@ -122,6 +134,7 @@ private:
   bool begins_alike(std::string_view lines) const;
   void habits(const std::string& statement, Bounds bounds);
   void own_call(const std::string& statement);
+  void name_command();
   void own_words();
   void own_sub();
   void several_lines(const std::string& statement);
@@ -149,6 +162,7 @@ private:
   std::string like_;            ///< the sub whose name means what the first word says
   std::string meant_;           ///< the sub that a call of an unknown one can only mean
   bool is_target_;              ///< something jumps here
+  bool guessed_ = false;        ///< a sign or a word was put in that lacks
   std::vector<Candidate> near_; ///< by one change, the cheapest first
   std::unordered_set<std::string> seen_;
   mutable Rewrites rewrites_; ///< of this line, and what became of it

@@ -459,7 +459,8 @@ private:
     if (!found.empty()) {
       write(finding, *repair, at, found);
       mended_.insert(&finding);
-      if (found.size() == 1 && (found[0].fewer || found[0].open))
+      if ((found.size() == 1 || judge_.language == Language::Test) &&
+          (found[0].fewer || found[0].open))
         texts_[at] = found[0].text;
     } else if (repair && finding.fix && finding.help.starts_with("write ") && !mends(finding)) {
       finding.help.clear(); // one error would only take the place of another

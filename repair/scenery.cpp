@@ -214,6 +214,32 @@ std::vector<Span> Scenery::jumps_to(std::string_view number) const {
   return jumps;
 }
 
+/// Whether a subroutine begins above a line, without a way out before it, and another one or
+/// nothing stands below.
+bool Scenery::ends_sub(std::uint32_t line) const {
+  std::set<std::string> subs;
+  for (std::uint32_t n = 1; n <= source_.line_count(); ++n) {
+    const auto tokens = split(source_.line(n).substr(0, longest_line), language_).tokens;
+    bool target = false; // a number here is a line
+    for (const auto& token : tokens) {
+      target = token.is("gosub") || (target && (token.is_number() || token.is(",")));
+      if (target && token.is_number())
+        subs.insert(token.text);
+    }
+  }
+  const auto below = number_below(line);
+  if (subs.empty() || (!below.empty() && !subs.contains(below)))
+    return false;
+  for (auto n = line; n > 0; --n) {
+    if (subs.contains(number(n)))
+      return true;
+    const auto above = split(source_.line(std::max(n, 2U) - 1).substr(0, longest_line), language_);
+    if (!above.tokens.empty() && holds("return end goto", above.tokens[0].text))
+      return false;
+  }
+  return false;
+}
+
 Surroundings Scenery::around(std::uint32_t line, const SplitLine& parts) const {
   Surroundings all;
   all.language = language_;
@@ -230,6 +256,7 @@ Surroundings Scenery::around(std::uint32_t line, const SplitLine& parts) const {
     all.free_letter = free.empty() ? "" : free.front();
     const auto first = number_below(0);
     all.first_number = first == all.line_number ? "" : first;
+    all.ends_sub = ends_sub(line);
   } else if (language_ == Language::Structured || language_ == Language::Macro) {
     all.closer = closers_[line - 1];
     all.in_function = in_function_[line - 1];

@@ -80,6 +80,7 @@ public:
   std::vector<std::string> free_letters() const;
 
 private:
+  bool ends_sub(std::uint32_t line) const;
   /// Words that other lines have: those of one letter, or of several.
   std::vector<std::string_view> others(const Tokens& line, bool letters) const;
 

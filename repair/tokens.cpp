@@ -386,6 +386,13 @@ Token word(std::string_view text) {
   return Token{Token::Kind::Word, std::string(text), true};
 }
 
+void take_out(Tokens& tokens, std::size_t at, std::size_t count) {
+  const auto first = tokens.begin() + static_cast<std::ptrdiff_t>(at);
+  if (at + count < tokens.size())
+    tokens[at + count].gap = first->gap;
+  tokens.erase(first, first + static_cast<std::ptrdiff_t>(count));
+}
+
 void append(Tokens& to, const Tokens& tokens) {
   to.insert(to.end(), tokens.begin(), tokens.end());
 }

@@ -70,6 +70,9 @@ std::size_t close_of(const Tokens& tokens, std::size_t open);
 /// A word with a blank before it.
 Token word(std::string_view text);
 
+/// Takes tokens out; what follows has the blank that stood before them.
+void take_out(Tokens& tokens, std::size_t at, std::size_t count);
+
 /// Puts tokens behind others.
 void append(Tokens& to, const Tokens& tokens);
 

@@ -22,37 +22,20 @@ bool is_move(const Token& token) {
       token.text);
 }
 
-/// `loop-start` and `loop start` are one word.
-Tokens joined(const Tokens& line) {
-  for (const std::size_t size : {3U, 2U}) {
-    if (line.size() < size || !line[0].is_word() || !line[size - 1].is_word() ||
-        (size == 3 && (!line[1].is("-") || line[2].gap)))
-      continue;
-    const auto word = line[0].text + "_" + line[size - 1].text;
-    if (spec::find_macro_command(word) == nullptr)
-      continue;
-    auto all = repair::slice(line, size - 1);
-    all[0].text = word;
-    return all;
-  }
-  if (line.size() > 2 && line[1].is_number() && line[0].is_word() && // `set_sd 2 70`
-      spec::find_macro_command(line[0].text + line[1].text) != nullptr) {
-    auto all = repair::slice(line, 1);
-    all[0] = Token{Token::Kind::Word, line[0].text + line[1].text};
-    return all;
-  }
-  return line;
-}
-
 /// `let speed = 0` and `set rotation rate to 255`: the command that sets it, its values behind it.
 Tokens without_let(const Tokens& line) {
   constexpr std::size_t most = 3; // words of a mnemonic
   if (line.empty() || !holds("let set put make define imposta setze", line[0].text))
     return line;
   std::string word;
-  for (std::size_t i = 1; i < line.size() && i <= most && line[i].is_word(); ++i) {
-    word += (i > 1 ? "_" : "") + lower(line[i].text);
+  const std::size_t first = line.size() > 2 && line[1].is("the") ? 2 : 1;
+  for (auto i = first; i < line.size() && i <= most && line[i].is_word(); ++i) {
+    word += (i > first ? "_" : "") + lower(line[i].text);
     const bool sets = i + 2 < line.size() && (line[i + 1].is("=") || line[i + 1].is("to"));
+    if (holds("light lights led leds color colour", word))
+      word = "rgb";
+    if (holds("back_light tail_light rear_light back_rgb", word))
+      word = "back_led";
     const bool known = spec::find_macro_command(word) != nullptr;
     if (!sets || (!known && spec::find_macro_command("set_" + word) == nullptr))
       continue;
@@ -87,7 +70,13 @@ bool stands_for(const std::string& word, const std::string& part) {
           (word.starts_with(part) || part.starts_with(word))) ||
          (word.size() > long_ && word.substr(0, long_) == part.substr(0, long_)) ||
          (part == "set" &&
-          holds("imposta imposte fija fijar pon poner regler setze mets ajusta defina", word)) ||
+          holds("imposta imposte fija fijar pon poner regler setze mets ajusta defina "
+                "definir define",
+                word)) ||
+         (part == "start" && holds("inicio início inizio début debut anfang begin", word)) ||
+         (part == "loop" && holds("repeat bucle boucle ciclo laço schleife", word)) ||
+         (part == "rate" && holds("velocita velocità velocidad velocidade vitesse tempo", word)) ||
+         (part == "rotation" && word.starts_with("rot")) ||
          (part.size() <= little && word.size() <= little + 1 && !is_digit(word[0]));
 }
 
@@ -107,6 +96,32 @@ const spec::MacroCommandInfo* command_in_parts(std::string_view word) {
     found = &info;
   }
   return found;
+}
+
+/// `loop-start` and `loop start` are one word.
+Tokens joined(const Tokens& line) {
+  for (const std::size_t size : {3U, 2U}) {
+    if (line.size() < size || !line[0].is_word() || !line[size - 1].is_word() ||
+        (size == 3 && (!line[1].is("-") || line[2].gap)))
+      continue;
+    const auto word = line[0].text + "_" + line[size - 1].text;
+    const auto* info = spec::find_macro_command(word);
+    if (info == nullptr && repair::parts_of(word).size() > 2 &&
+        spec::find_macro_command(line[0].text) == nullptr)
+      info = command_in_parts(word); // `pauseUntil stopped`
+    if (info == nullptr)
+      continue;
+    auto all = repair::slice(line, size - 1);
+    all[0].text = info->mnemonic;
+    return all;
+  }
+  if (line.size() > 2 && line[1].is_number() && line[0].is_word() && // `set_sd 2 70`
+      spec::find_macro_command(line[0].text + line[1].text) != nullptr) {
+    auto all = repair::slice(line, 1);
+    all[0] = Token{Token::Kind::Word, line[0].text + line[1].text};
+    return all;
+  }
+  return line;
 }
 
 /// The command whose mnemonic's parts all stand in the line, those before its values first: `roll
@@ -178,8 +193,27 @@ const spec::MacroCommandInfo* command_of(Tokens& line) {
 
 namespace {
 
+/// `&H00FFFF`: three numbers in one.
+void read_colour(Tokens& line) {
+  constexpr std::size_t digits = 6;
+  for (std::size_t i = 0; i + 1 < line.size(); ++i) {
+    const std::string_view text = line[i + 1].text;
+    if (!line[i].is("&") || text.size() != digits + 1 || to_lower(text[0]) != 'h')
+      continue;
+    Tokens values;
+    for (std::size_t at = 1; at < text.size(); at += 2)
+      if (const auto value = parse_number<std::uint32_t>(text.substr(at, 2), 16))
+        values.push_back(Token{Token::Kind::Number, std::to_string(*value), true});
+    if (values.size() * 2 != digits)
+      continue;
+    const auto at = line.begin() + static_cast<std::ptrdiff_t>(i);
+    line.insert(line.erase(at, at + 2), values.begin(), values.end());
+  }
+}
+
 /// `80h`, `0C8h`, `0xFEh` and `$FF` in decimal.
 void read_hexadecimal(Tokens& line) {
+  read_colour(line);
   for (std::size_t i = 0; i < line.size(); ++i) {
     std::string digits = line[i].text;
     std::size_t used = 1;

@@ -164,7 +164,8 @@ void part_bytes(Tokens& values, std::size_t wanted) {
     return;
   for (std::size_t i = 0; i < values.size(); ++i) {
     const auto text = values[i].text;
-    if (!values[i].is_number() || parse_number<int>(text).value_or(0) <= UINT8_MAX)
+    const bool led = text.size() > 1 && text[0] == '0' && is_digit(text[1]); // `0 08`
+    if (!values[i].is_number() || (!led && parse_number<int>(text).value_or(0) <= UINT8_MAX))
       continue;
     std::size_t place = 0;
     for (std::size_t at = 1; at < text.size(); ++at) {
@@ -215,6 +216,10 @@ std::vector<Rephrased> rephrase_roll(const Tokens& line) {
     else if (!token.is(","))
       return {};
   }
+  const auto close = repair::close_of(line, 1);
+  for (std::size_t i = close + 1; i < line.size(); ++i) // `roll(120, 0) delay=200`
+    if (line[i].is_number())
+      values.push_back(line[i].text);
   constexpr int brief = 20; // seconds, not milliseconds
   const auto time = values.size() == 3 ? parse_number<int>(values[2]).value_or(1) : 0;
   if (values.size() < 2 || values.size() > 3 || values[0] == values[1] ||
@@ -257,10 +262,12 @@ std::vector<Rephrased> rephrase_command(const spec::MacroCommandInfo& info, cons
     for (auto& token : values)
       if (token.is_word() || token.is_text())
         token = Token{Token::Kind::Word, plain_name({token}), token.gap};
+  const auto needed = std::count_if(operands.begin(), operands.end(),
+                                    [](const Operand& operand) { return !operand.optional; });
   if (std::all_of(operands.begin(), operands.end(), [](const Operand& operand) {
-        return operand.counts == Counts::Plain && operand.most == UINT8_MAX;
+        return operand.optional || (operand.counts == Counts::Plain && operand.most == UINT8_MAX);
       }))
-    part_bytes(values, operands.size());
+    part_bytes(values, static_cast<std::size_t>(needed));
   if (info.command == spec::MacroCommand::Roll) // a longer delay makes it a roll2
     operands.back().most = UINT16_MAX;
   const auto arranged = repair::arrange(values, operands, elsewhere.constants);
@@ -396,6 +403,8 @@ std::vector<Rephrased> rephrase_header(const Tokens& line) {
         ++i;
         continue;
       }
+    if (in == In::Id && id.empty() && holds("es ist is est è is vale", token.text))
+      continue;
     if (says_id && in == In::Name && !name.empty() && token.is_number() && token.gap) {
       i += i + 1 < line.size() && line[i + 1].is_word() && !line[i + 1].gap ? 1 : 0;
       continue; // `spin 12s id=53`
@@ -513,6 +522,10 @@ std::vector<Rephrased> rephrase(const Tokens& written, const Elsewhere& elsewher
   if (line.size() > 1 && (line[0].is(".macro") || line[0].is("macro")))
     return rephrase_header(line);
   if (line[0].is(".const") || line[0].is("const")) {
+    if (line.size() > 4 && line[1].is_word() && line[2].is_word()) // `const int step = 500;`
+      line.erase(line.begin() + 1);
+    if (line.back().is(";"))
+      line.pop_back();
     const std::size_t value = line.size() > 2 && (line[2].is("=") || line[2].is(":")) ? 3 : 2;
     if (line.size() <= value || !line[1].is_word())
       return {};
@@ -531,6 +544,11 @@ std::vector<Rephrased> rephrase(const Tokens& written, const Elsewhere& elsewher
                  : std::vector<Rephrased>();
   }
   const auto* info = command_of(line);
+  if (info == nullptr && line.size() == 2 &&
+      std::find(elsewhere.macros.begin(), elsewhere.macros.end(), line[1].text) !=
+          elsewhere.macros.end()) // `aufruf step`
+    return {{fmt::format("{} {}", spec::info(spec::MacroCommand::Gosub).mnemonic, line[1].text),
+             false}};
   return info == nullptr ? std::vector<Rephrased>() : rephrase_command(*info, line, elsewhere);
 }
 

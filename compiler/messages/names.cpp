@@ -1,5 +1,6 @@
 #include "compiler/messages/names.h"
 
+#include "base/text/text.h"
 #include "compiler/messages/fault_text.h"
 #include "compiler/text/rules.h"
 #include "repair/tokens.h"
@@ -191,6 +192,9 @@ private:
     const auto name = program_.text_of(span);
     const auto word = find_word(name);
     if (word.kind == WordKind::Unknown) {
+      for (const auto& row : spec::statements)
+        if (row.word != lower(row.word) && equal_words(row.word, name))
+          return std::nullopt; // `rgb = 0,0,0`
       for (const auto& row : spec::variables)
         if (row.access == spec::Access::ReadWrite &&
             (equal_words(row.word, name) || (begins(row.word, name) && !counts(name))))

@@ -69,7 +69,15 @@ public:
     else if (holds("toHaveBeenCalledTimes times toBeCalledTimes toHaveBeenPrintedTimes", method) &&
              values.size() == 1)
       append(tail_, {word(values[0].text), word("times")});
-    else if (holds("within toBeWithin before under in withinTime timeout toHappenWithin", method))
+    else if (holds("between toBeBetween", method) && values.size() > 2) {
+      for (auto& token : values)
+        if (token.is(","))
+          token.text = "..";
+      for (auto& token : values)
+        token.gap = false;
+      values[0].gap = true;
+      append(values_, values);
+    } else if (holds("within toBeWithin before under in withinTime timeout toHappenWithin", method))
       within(values);
     else if (holds("atEnd atTheEnd finally", method) && values.empty())
       append(tail_, {word("at"), word("end")});

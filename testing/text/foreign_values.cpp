@@ -131,6 +131,33 @@ Tokens with_plain_calls(const Tokens& line) {
   return all;
 }
 
+/// `3m <= distance <= 4m` as `distance 3m..4m`.
+Tokens between_bounds(const Tokens& line) {
+  const auto middle = std::find_if(line.begin(), line.end(), [](const Token& token) {
+    return token.is("distance") || token.is("speed");
+  });
+  const auto at = static_cast<std::size_t>(middle - line.begin());
+  if (at < 2 || at + 2 >= line.size() || !line[at - 1].is_relation() ||
+      !line[at + 1].is_relation() || !line[at + 2].is_number())
+    return line;
+  std::size_t first = at - 1; // where the lower bound begins
+  while (first > 0 && !line[first].is_number())
+    --first;
+  if (!line[first].is_number())
+    return line;
+  auto all = repair::slice(line, 0, first);
+  all.push_back(*middle);
+  all.back().gap = true;
+  auto low = repair::slice(line, first, at - 1);
+  low[0].gap = true;
+  repair::append(all, low);
+  all.push_back(Token{Token::Kind::Sign, ".."});
+  auto high = repair::slice(line, at + 2);
+  high[0].gap = false;
+  repair::append(all, high);
+  return all;
+}
+
 /// `distance >= 13m and distance <= 15m` as `distance 13m..15m`.
 Tokens with_bounds(const Tokens& line) {
   struct Bound {
@@ -314,7 +341,8 @@ bool says_print(const Token& token) {
 Tokens with_plain_values(const Tokens& line) {
   const auto plain = with_test(with_beyond(with_and(with_signs_apart(line))));
   const auto all = with_name(with_whole_texts(with_quotes_for_brackets(plain)));
-  return with_metric_lengths(with_end(with_bounds(with_plain_calls(with_plain_colours(all)))));
+  return with_metric_lengths(
+      with_end(with_bounds(between_bounds(with_plain_calls(with_plain_colours(all))))));
 }
 
 } // namespace orb::testing

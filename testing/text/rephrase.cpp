@@ -8,6 +8,7 @@
 #include "vm/stimulus.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <fmt/format.h>
 #include <optional>
@@ -605,8 +606,10 @@ std::optional<Tokens> close_text(const Tokens& line) {
       phrases = *read;
     const bool seeds =
         line[0].is("test") && rest.size() > 1 && rest[0].is("seeds") && rest[1].is_number();
-    if (!seeds && (!phrases.what.empty() || !phrases.by.empty() ||
-                   (phrases.when.empty() && phrases.times.empty())))
+    const bool more = rest.size() > 2 && rest[0].is("and") && expectation(rest[1]) != nullptr;
+    if (!seeds && !more &&
+        (!phrases.what.empty() || !phrases.by.empty() ||
+         (phrases.when.empty() && phrases.times.empty())))
       continue;
     Tokens all = line;
     all.back().text = text.substr(0, blank);
@@ -871,6 +874,8 @@ Tokens translate(const Tokens& line) {
                       !repair::is_called("", following->text);
     if (zone && !all.empty() && holds("touching touches touch", token.text))
       add("inside");
+    else if (number && !all.empty() && holds("touching locate position", token.text))
+      add("near");
     else if (called("within") && timed)
       add("within");
     else if (called("by") && number && (long_ || turns || !called("at")) && !timed && !after_near)
@@ -933,6 +938,59 @@ Tokens once_each(Tokens all) {
                         }),
             all.end());
   return all;
+}
+
+/// `ON TIMER(4) push`, `when timer = 4s push` and `at (ms) 500`: a time as test files say it.
+Tokens with_times(Tokens line) {
+  if (line.size() > 5 && holds("on when", line[0].text) && equal_words(line[1].text, "timer")) {
+    std::erase_if(
+        line, [](const Token& token) { return token.is("(") || token.is(")") || token.is("="); });
+    line.erase(line.begin());
+    line[0].text = "at";
+    if (line.size() > 2 && line[1].is_number() && !(line[2].is_word() && !line[2].gap))
+      line.insert(line.begin() + 2, Token{Token::Kind::Word, "s"});
+    line[1].gap = true;
+  }
+  for (std::size_t i = 0; i + 3 < line.size(); ++i)
+    if (line[i].is("(") && line[i + 1].is("ms") && line[i + 2].is(")") && line[i + 3].is_number()) {
+      line[i] = line[i + 3];
+      line[i].gap = true;
+      line[i + 1].gap = false;
+      line.erase(line.begin() + static_cast<std::ptrdiff_t>(i) + 2,
+                 line.begin() + static_cast<std::ptrdiff_t>(i) + 4);
+    }
+  return line;
+}
+
+/// `run police.macro`, `backdrop ../hall.svg`, `course = "hall.svg";`: a line that names a file.
+std::string names_file(const Tokens& line) {
+  constexpr auto ends = std::to_array<std::string_view>({".bas", ".orb", ".macro", ".svg"});
+  std::string name;
+  for (std::size_t i = 1; i < line.size(); ++i) {
+    if (line[i].is("=") || line[i].is(";") || line[i].is(":") || line[i].is("<") || line[i].is(">"))
+      continue;
+    if (!name.empty() && line[i].gap)
+      return {}; // more than a name
+    name += line[i].text;
+  }
+  for (const auto end : {";", ">"})
+    if (name.ends_with(end))
+      name.pop_back();
+  const auto ending = std::find_if(ends.begin(), ends.end(),
+                                   [&](std::string_view one) { return name.ends_with(one); });
+  if (ending == ends.end() || !line[0].is_word() ||
+      name.find_first_of(" ()\"") != std::string::npos)
+    return {};
+  const bool course = *ending == ".svg";
+  const bool known =
+      line[0].is("with") || line[0].is("program") || line[0].is("course") || line[0].is("target");
+  const bool runs = holds("run load start execute use open esegui starte ejecuta ejecutar exécute "
+                          "executa lade carica import",
+                          line[0].text);
+  const bool places = holds("backdrop background map stage bühne fondo fond sfondo", line[0].text);
+  if (!known && !(course ? places : runs))
+    return {};
+  return fmt::format("{} {}", known ? line[0].text : course ? "course" : "program", name);
 }
 
 /// `8m to 10m` and `between 8m and 10m` of what takes a range.
@@ -1026,8 +1084,9 @@ std::optional<Rephrased> arrange(const Tokens& line, const Elsewhere& elsewhere)
            expectation(line[0]) == nullptr)
     return std::nullopt;
   for (std::size_t i = 2; i + 1 < rest.size(); ++i) // `inside garage color green`
-    if (expectation(rest[i]) != nullptr && rest[i - 1].is_word() &&
-        expectation(rest[i - 1]) == nullptr && !is_vocabulary(lower(rest[i - 1].text), false))
+    if (expectation(rest[i]) != nullptr && expectation(rest[i - 2]) != nullptr &&
+        rest[i - 1].is_word() && expectation(rest[i - 1]) == nullptr &&
+        !is_vocabulary(lower(rest[i - 1].text), false))
       rest.insert(rest.begin() + static_cast<std::ptrdiff_t>(i++), repair::word("and"));
   for (std::size_t i = 1; i + 1 < rest.size(); ++i) // `inside garage, resting`
     if (rest[i].is(",") && expectation(rest[i + 1]) != nullptr)
@@ -1051,7 +1110,8 @@ Tokens unwrapped(const Tokens& line) {
       continue;
     }
     const bool call = i > 0 && value && line[i].is("(") && line[i + 2].is(")") &&
-                      expectation(line[i - 1]) != nullptr && !line[i - 1].is("print");
+                      (expectation(line[i - 1]) != nullptr || line[i - 1].is("reach")) &&
+                      !line[i - 1].is("print");
     if (!call) {
       all.push_back(line[i]);
       continue;
@@ -1063,6 +1123,34 @@ Tokens unwrapped(const Tokens& line) {
     i += 2;
   }
   return all;
+}
+
+/// `expect "end within 10s`: the quote of Logo before a word of test files, which is no text.
+std::optional<Tokens> without_quote(const Tokens& line) {
+  if (line.size() < 2 || !line.back().is_text() || line.back().closed ||
+      says_print(line[line.size() - 2]) || line[line.size() - 2].is("~") || line[0].is("test"))
+    return std::nullopt;
+  auto rest = repair::tokens_of(line.back().text, Language::Test);
+  if (rest.empty() || !rest[0].is_word() ||
+      !(is_vocabulary(rest[0].text, false) || repair::test_colour(rest[0]) || line[0].is("wall")))
+    return std::nullopt;
+  rest[0].gap = true;
+  auto all = repair::slice(line, 0, line.size() - 1);
+  repair::append(all, rest);
+  return all;
+}
+
+/// `expect.not.moving();`, `wall.y = -30`: words with points between them.
+Tokens without_points(Tokens line) {
+  if (line.size() < 4 || !(line[0].is("expect") || line[0].is("never") || line[0].is("wall")) ||
+      !line[1].is("."))
+    return line;
+  std::erase_if(line, [](const Token& token) {
+    return token.is(".") || token.is("(") || token.is(")") || token.is(";");
+  });
+  for (auto& token : line)
+    token.gap = true;
+  return line;
 }
 
 /// `expect say`, `expect print([`: what is printed stands below.
@@ -1084,23 +1172,44 @@ std::string prints_below(const Tokens& line, const Elsewhere& elsewhere) {
 } // namespace
 
 std::vector<Rephrased> rephrase(const Tokens& written, const Elsewhere& elsewhere) {
-  const auto line = unwrapped(with_plain_values(written));
+  const auto line = without_points(unwrapped(with_plain_values(written)));
   if (line.empty())
     return {};
+  if (line.size() > 1)
+    if (const auto file = names_file(written); !file.empty()) {
+      constexpr std::string_view program = "program ";
+      const bool either = file.starts_with(program) && !line[0].is("program");
+      return {{file, false, either ? "with " + file.substr(program.size()) : std::string()}};
+    }
   if (const auto block = prints_below(line, elsewhere); !block.empty())
     return {{block, false}};
-  if (line.size() == 2 && line[0].is_word() && repair::is_called("print", line[0].text) &&
-      line[1].is_text()) {
+  const bool says = line[0].is_word() && (equal_words("print", line[0].text) ||
+                                          repair::is_called("print", line[0].text));
+  if (line.size() == 2 && says && line[1].is_text()) {
     const auto text = fmt::format("\"{}\"", line[1].text);
     auto expected = "expect print " + text;
     if (elsewhere.has_texts)
       return {{text, false, std::move(expected)}};
     return {{std::move(expected), false}};
   }
+  if (const auto open = without_quote(line)) {
+    auto all = rephrase(*open, elsewhere);
+    all.push_back({repair::join(*open), false});
+    return all;
+  }
   if (const auto closed = close_text(line)) {
     auto all = rephrase(*closed, elsewhere);
     all.push_back({repair::join(*closed), true});
     return all;
+  }
+  if (elsewhere.has_texts && line.size() > 1 && (line[0].is_number() || line[0].is("[")) &&
+      std::all_of(line.begin() + 1, line.end(), [](const Token& token) {
+        return token.is("]") ||
+               ((token.is_word() || token.is_number()) && !is_vocabulary(token.text, false));
+      })) { // `4 corners`, `[facing north]`
+    auto words = line;
+    std::erase_if(words, [](const Token& token) { return token.is("[") || token.is("]"); });
+    return {{fmt::format("\"{}\"", repair::join(words)), false}};
   }
   if (elsewhere.has_texts || line.size() == 1 || line[0].is("-"))
     if (const auto& last = line.back(); !last.is_text() || line[0].is("-"))
@@ -1108,8 +1217,8 @@ std::vector<Rephrased> rephrase(const Tokens& written, const Elsewhere& elsewher
         return {{fmt::format("\"{}\"", last.text), false}}; // whole of those below `prints`
   const auto chain = words_of_chain(line);
   const auto& said = chain.empty() ? without_signs(line) : chain;
-  const auto translated =
-      with_ranges(with_spans(with_quotes(once_each(translate(plain_places(with_units(said)))))));
+  const auto translated = with_ranges(
+      with_spans(with_quotes(once_each(translate(plain_places(with_times(with_units(said))))))));
   if (auto one = arrange(translated, elsewhere))
     return {std::move(*one)};
   if (translated.size() > 1 && repair::join(translated) != repair::join(written))
