@@ -3,6 +3,7 @@
 #include "base/text/text.h"
 #include "repair/colours.h"
 #include "repair/fill.h"
+#include "repair/arrange.h"
 
 #include <algorithm>
 #include <string>
