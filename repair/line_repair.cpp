@@ -15,7 +15,7 @@
 namespace orb::repair {
 namespace {
 
-constexpr std::size_t most_states = 150; // of one line, by habits
+constexpr std::size_t most_states = 90; // of one line, by habits
 constexpr std::size_t few_states = 40;   // of one line, by habits that take several
 constexpr int most_candidates = 1000;    // of one line, by search
 constexpr int deepest = 6;               // habits in one line
