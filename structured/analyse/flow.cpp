@@ -31,7 +31,6 @@ bool ends_block(const CodeLine& line) {
   case LineKind::SetSystem:
   case LineKind::For:
   case LineKind::Gosub:
-  case LineKind::OnGosub:
   case LineKind::Print:
   case LineKind::Choice: return false;
   }
@@ -98,13 +97,15 @@ void find_touched(const Code& code, Flow& flow) {
   }
   for (bool changed = routines > 1; changed;) {
     changed = false;
-    for (const auto& line : code.lines)
-      each_callee(code, line, [&](std::uint32_t callee) {
-        changed = unite(flow.written[line.routine], flow.written[callee]) || changed;
-        changed = unite(flow.touched[line.routine], flow.touched[callee]) || changed;
-        if (flow.sets_elements[callee] && !flow.sets_elements[line.routine])
-          changed = flow.sets_elements[line.routine] = true;
-      });
+    for (const auto& line : code.lines) {
+      const auto callee = callee_of(line);
+      if (callee == none)
+        continue;
+      changed = unite(flow.written[line.routine], flow.written[callee]) || changed;
+      changed = unite(flow.touched[line.routine], flow.touched[callee]) || changed;
+      if (flow.sets_elements[callee] && !flow.sets_elements[line.routine])
+        changed = flow.sets_elements[line.routine] = true;
+    }
   }
 }
 
@@ -130,18 +131,14 @@ void step_back(const Code& code, const Flow& flow, const Liveness& liveness, con
     if (!code.variables[v].kept)
       remove(live, v);
   });
-  bool first = true;
-  each_callee(code, line, [&](std::uint32_t callee) {
+  if (const auto callee = callee_of(line); callee != none) {
     const auto touched = flow.touched[callee];
     const auto entry = flow.entries[callee];
-    // Of several that may be called, none surely sets a variable.
-    if (first && line.kind == LineKind::Gosub)
-      for (std::size_t i = 0; i < live.size(); ++i)
-        live[i] &= ~touched[i];
-    first = false;
+    for (std::size_t i = 0; i < live.size(); ++i)
+      live[i] &= ~touched[i];
     if (entry != none)
       unite(live, liveness.in[entry]);
-  });
+  }
   each_line_read(code, line, [&](std::uint32_t v) { insert(live, v); });
 }
 
@@ -190,7 +187,7 @@ private:
     const auto& block = flow_.blocks[b];
     for (auto i = block.end; i-- > block.begin;) {
       const auto& line = code_.lines[i];
-      if (line.kind == LineKind::Gosub || line.kind == LineKind::OnGosub) {
+      if (line.kind == LineKind::Gosub) {
         calls_[b] = true;
         return;
       }
@@ -222,7 +219,8 @@ private:
     live_.assign(out.begin(), out.end());
     for (auto i = block.end; i-- > block.begin;) {
       const auto& line = code_.lines[i];
-      each_callee(code_, line, [&](std::uint32_t callee) { call(line.routine, callee); });
+      if (const auto callee = callee_of(line); callee != none)
+        call(line.routine, callee);
       step(line, live_);
     }
   }

@@ -94,25 +94,17 @@ void each_target(C& code, L& line, Visit visit) {
       visit(code.parts[i].value);
 }
 
-/// The same, and the subs that a line calls.
+/// The same, and the sub that a line calls.
 template <typename C, typename L, typename Visit>
 void each_label(C& code, L& line, Visit visit) {
   each_target(code, line, visit);
   if (line.kind == LineKind::Gosub)
     visit(line.label);
-  if (line.kind == LineKind::OnGosub)
-    for (auto i = line.parts_begin; i < line.parts_end; ++i)
-      visit(code.parts[i].value);
 }
 
-/// Calls `visit` with each routine that a line calls.
-template <typename Visit>
-void each_callee(const Code& code, const CodeLine& line, Visit visit) {
-  if (line.kind == LineKind::Gosub)
-    visit(line.variable);
-  if (line.kind == LineKind::OnGosub)
-    for (auto i = line.parts_begin; i < line.parts_end; ++i)
-      visit(code.parts[i].text.begin);
+/// The routine that a line calls, or none.
+inline std::uint32_t callee_of(const CodeLine& line) {
+  return line.kind == LineKind::Gosub ? line.variable : none;
 }
 
 /// Whether the program ends with a line.

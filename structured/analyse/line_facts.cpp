@@ -11,7 +11,7 @@ namespace {
 bool acts(const CodeLine& line) {
   return line.kind == LineKind::Do || line.kind == LineKind::Print ||
          line.kind == LineKind::SetSystem || line.kind == LineKind::Gosub ||
-         line.kind == LineKind::OnGosub || line.kind == LineKind::Return;
+         line.kind == LineKind::Return;
 }
 
 } // namespace
@@ -19,18 +19,16 @@ bool acts(const CodeLine& line) {
 bool LineFacts::writes(const CodeLine& line, std::uint32_t variable) const {
   bool found = false;
   each_write(code_, line, [&](std::uint32_t v) { found = found || v == variable; });
-  each_callee(code_, line, [&](std::uint32_t routine) {
+  if (const auto routine = callee_of(line); routine != none)
     found = found || contains(flow_.written[routine], variable);
-  });
   return found;
 }
 
 bool LineFacts::touches(const CodeLine& line, std::uint32_t variable) const {
   bool found = writes(line, variable);
   each_line_read(code_, line, [&](std::uint32_t v) { found = found || v == variable; });
-  each_callee(code_, line, [&](std::uint32_t routine) {
+  if (const auto routine = callee_of(line); routine != none)
     found = found || contains(flow_.touched[routine], variable);
-  });
   return found;
 }
 
@@ -38,8 +36,8 @@ bool LineFacts::sets_elements(const CodeLine& line) const {
   if (line.kind == LineKind::SetElement)
     return true;
   bool found = false;
-  each_callee(code_, line,
-              [&](std::uint32_t routine) { found = found || flow_.sets_elements[routine]; });
+  if (const auto routine = callee_of(line); routine != none)
+    found = flow_.sets_elements[routine];
   if (line.kind == LineKind::Do)
     for (auto i = line.parts_begin; i < line.parts_end; ++i)
       found = found || code_.parts[i].kind == PartKind::Element;
@@ -63,10 +61,9 @@ bool LineFacts::reads(std::uint32_t term, std::uint32_t variable) const {
 bool LineFacts::disturbs(const CodeLine& line, std::uint32_t term) const {
   bool found = (code_.terms[term].effects & effect::elements) != 0 && sets_elements(line);
   each_write(code_, line, [&](std::uint32_t v) { found = found || reads(term, v); });
-  each_callee(code_, line, [&](std::uint32_t routine) {
+  if (const auto routine = callee_of(line); routine != none)
     each_read(code_, term,
               [&](std::uint32_t v) { found = found || contains(flow_.written[routine], v); });
-  });
   return found;
 }
 

@@ -199,8 +199,8 @@ void Ranges::visit(std::uint32_t b) {
 
 /// Goes over a line; false where nothing comes back from its call yet.
 bool Ranges::step(std::uint32_t b, const CodeLine& line, State& state) {
-  if (line.kind == LineKind::Gosub || line.kind == LineKind::OnGosub)
-    return call(line, state, b);
+  if (const auto callee = callee_of(line); callee != none)
+    return call(callee, state, b);
   set(line, state);
   return true;
 }
@@ -245,27 +245,8 @@ void Ranges::set(const CodeLine& line, State& state) {
   }
 }
 
-bool Ranges::call(const CodeLine& line, State& state, std::uint32_t from) {
-  if (line.kind == LineKind::Gosub)
-    return call_one(line.variable, state, from);
-  std::optional<State> joined;
-  for (auto i = line.parts_begin; i < line.parts_end; ++i) {
-    auto after = state;
-    if (!call_one(code_.parts[i].text.begin, after, from))
-      continue;
-    if (joined)
-      for (std::size_t v = 0; v < after.size(); ++v)
-        (*joined)[v] = compiler::join((*joined)[v], after[v]);
-    else
-      joined = std::move(after);
-  }
-  if (joined)
-    state = std::move(*joined);
-  return joined.has_value();
-}
-
 /// Turns `state` into that after the call of a routine; false where nothing comes back from it yet.
-bool Ranges::call_one(std::uint32_t routine, State& state, std::uint32_t from) {
+bool Ranges::call(std::uint32_t routine, State& state, std::uint32_t from) {
   auto& returned = returns_[routine];
   if (following_) {
     enter(flow_.entries[routine], state);

@@ -78,8 +78,7 @@ private:
   void set_element(compiler::Range range);
   bool step(std::uint32_t b, const CodeLine& line, State& state);
   void set(const CodeLine& line, State& state);
-  bool call(const CodeLine& line, State& state, std::uint32_t from);
-  bool call_one(std::uint32_t routine, State& state, std::uint32_t from);
+  bool call(std::uint32_t routine, State& state, std::uint32_t from);
 
   void leave(std::uint32_t b, const CodeLine& line, State& state);
   void leave_routine(std::uint32_t routine, const State& state);

@@ -25,7 +25,6 @@ std::uint32_t bytes_of(const Code& code, const CodeLine& line) {
   case LineKind::Return:
   case LineKind::Switch:
   case LineKind::On:
-  case LineKind::OnGosub:
   case LineKind::Choice: return bytes + 7;
   }
   return bytes;

@@ -71,7 +71,6 @@ public:
     fold_branches();
     finish_tests();
     end_at_once();
-    call_last();
     while (remove_unreached())
       ;
   }
@@ -316,7 +315,6 @@ private:
     case LineKind::Gosub:
     case LineKind::Return:
     case LineKind::On:
-    case LineKind::OnGosub:
     case LineKind::Print: return true;
     case LineKind::Do: return in_documented_list(line.robot);
     case LineKind::Nothing:
@@ -607,27 +605,6 @@ private:
       const auto origin = line.origin;
       line = last;
       line.origin = origin;
-    }
-  }
-
-  /// What a sub calls last returns for it.
-  void call_last() {
-    const auto call = [](CodeLine& line) {
-      if (line.kind == LineKind::Gosub)
-        line.kind = LineKind::Goto;
-    };
-    for (std::size_t i = 0; i < code_.lines.size(); ++i) {
-      auto after = i + 1;
-      while (after < code_.lines.size() && code_.lines[after].kind == LineKind::Label)
-        ++after;
-      if (after == code_.lines.size() || code_.lines[after].kind != LineKind::Return)
-        continue;
-      auto& line = code_.lines[i];
-      call(line);
-      if (line.kind == LineKind::Choice)
-        for (const auto branch : {line.term, line.end})
-          if (branch != none)
-            call(code_.branches[branch]);
     }
   }
 

@@ -65,7 +65,7 @@ private:
   void find_known(std::uint32_t jump) {
     known_.clear();
     for (auto i = jump; i-- > 0 && falls_through(code_.lines[i]) && !is(i, LineKind::Label) &&
-                        !is(i, LineKind::Gosub) && !is(i, LineKind::OnGosub);) {
+                        !is(i, LineKind::Gosub);) {
       const auto& line = code_.lines[i];
       Relation relation;
       if (line.kind == LineKind::Let && code_.is_number(line.term)) {

@@ -114,8 +114,7 @@ private:
       put_label(line.label);
       return;
     case LineKind::Return: put("return"); return;
-    case LineKind::On:
-    case LineKind::OnGosub: on(line); return;
+    case LineKind::On: on(line); return;
     case LineKind::Print: print_line(line); return;
     case LineKind::Do: perform(line); return;
     case LineKind::Choice: choice(line); return;
@@ -141,7 +140,7 @@ private:
   void on(const CodeLine& line) {
     put("on ");
     whole(line.term);
-    put(line.kind == LineKind::On ? " goto " : " gosub ");
+    put(" goto ");
     for (auto i = line.parts_begin; i < line.parts_end; ++i) {
       if (i > line.parts_begin)
         put(',');

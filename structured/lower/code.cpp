@@ -192,7 +192,7 @@ bool same(const Code& code, std::uint32_t a, std::uint32_t b, const Identity& id
 
 bool may_fault(const Code& code, const CodeLine& line) {
   if ((line.kind == LineKind::SetElement && !line.proven) || line.kind == LineKind::SetSystem ||
-      line.kind == LineKind::On || line.kind == LineKind::OnGosub)
+      line.kind == LineKind::On)
     return true;
   if ((effects_of(code, line) & effect::faults) != 0)
     return true;

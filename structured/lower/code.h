@@ -77,7 +77,6 @@ enum class LineKind : std::uint8_t {
   Return,
   Switch, ///< by `variable`: cases; `label` where none fits
   On,     ///< `term` chooses among the labels in its parts
-  OnGosub,
   Print,  ///< parts
   Do,     ///< `robot` with its parts
   Choice, ///< `condition`, then line `term`, else line `end` (or none) of `branches`
@@ -234,8 +233,7 @@ void each_root(C& code, L& line, Visit visit) {
   case LineKind::Let:
   case LineKind::SetElement:
   case LineKind::SetSystem:
-  case LineKind::On:
-  case LineKind::OnGosub: visit(line.term); return;
+  case LineKind::On: visit(line.term); return;
   case LineKind::For:
     visit(line.term);
     visit(line.end);

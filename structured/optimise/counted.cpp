@@ -153,8 +153,8 @@ private:
         auto& here = open[line.routine];
         here += line.kind == LineKind::For || i == loop.begin ? 1 : 0;
         deepest = std::max(deepest, here);
-        each_callee(code_, line,
-                    [&](std::uint32_t callee) { above[callee] = std::max(above[callee], here); });
+        if (const auto callee = callee_of(line); callee != none)
+          above[callee] = std::max(above[callee], here);
         here -= line.kind == LineKind::Next || i == loop.test ? 1 : 0;
       }
     }

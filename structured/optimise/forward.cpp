@@ -246,7 +246,7 @@ private:
   /// reads an element again.
   void repeat(std::uint32_t i) {
     const auto variable = code_.lines[i].variable;
-    const auto term = index_at(i);
+    const auto term = code_.lines[i].term;
     constexpr std::uint32_t most_reads = 2;
     const auto& node = code_.terms[term];
     const bool element = node.kind == TermKind::Element && node.effects == effect::elements;
@@ -293,24 +293,6 @@ private:
     });
     reads_[variable] = 0;
     drop(code_.lines[i]);
-  }
-
-  /// What line `i` sets its variable to; if that is the index, what this was set to above.
-  std::uint32_t index_at(std::uint32_t i) const {
-    const auto term = code_.lines[i].term;
-    if (code_.terms[term].kind != TermKind::Variable || code_.terms[term].left != index_variable)
-      return term;
-    for (auto n = i; n-- > 0 && !LineFacts::ends_text(code_.lines[n]);) {
-      const auto& line = code_.lines[n];
-      if (!facts_.writes(line, index_variable))
-        continue;
-      for (auto k = n + 1; line.kind == LineKind::Let && k < i; ++k)
-        if (facts_.disturbs(code_.lines[k], line.term))
-          return term;
-      return line.kind == LineKind::Let && !facts_.reads(line.term, index_variable) ? line.term
-                                                                                    : term;
-    }
-    return term;
   }
 
   std::uint32_t renamed(std::uint32_t root, std::uint32_t from, std::uint32_t to) {
@@ -566,7 +548,7 @@ private:
           insert(live, held.variable);
         continue;
       }
-      if (line.kind == LineKind::Gosub || line.kind == LineKind::OnGosub) {
+      if (line.kind == LineKind::Gosub) {
         known = {};
         continue;
       }

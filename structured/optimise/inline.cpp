@@ -12,10 +12,9 @@ namespace {
 class Inliner {
 public:
   explicit Inliner(Code& code)
-      : code_(code), sites_(code.routines.size(), 0), listed_(code.routines.size(), false),
-        bytes_(code.routines.size(), 0), call_bytes_(code.routines.size(), 0),
-        results_(code.routines.size(), none), result_bytes_(code.routines.size(), 0),
-        tested_(code.routines.size(), 0) {}
+      : code_(code), sites_(code.routines.size(), 0), bytes_(code.routines.size(), 0),
+        call_bytes_(code.routines.size(), 0), results_(code.routines.size(), none),
+        result_bytes_(code.routines.size(), 0), tested_(code.routines.size(), 0) {}
 
   bool run() {
     find_results();
@@ -26,14 +25,11 @@ public:
         call_bytes_[line.variable] += bytes_of(code_, code_.lines[i + 1]);
         ++tested_[line.variable];
       }
-      set = line.kind == LineKind::Let     ? set + line_bytes + 2
-            : line.kind == LineKind::Gosub ? set
-                                           : 0;
-      each_callee(code_, line, [&](std::uint32_t routine) {
+      if (const auto routine = callee_of(line); routine != none) {
         ++sites_[routine];
-        call_bytes_[routine] += call_bytes + std::exchange(set, 0);
-        listed_[routine] = listed_[routine] || line.kind == LineKind::OnGosub;
-      });
+        call_bytes_[routine] += call_bytes + set;
+      }
+      set = line.kind == LineKind::Let ? set + line_bytes + 2 : 0;
       if (line.kind != LineKind::Return)
         bytes_[line.routine] += bytes_of(code_, line);
     }
@@ -50,7 +46,7 @@ private:
   bool is_worth(std::uint32_t routine) const {
     constexpr std::uint32_t slack = 16; // bytes that fewer lines on the way may cost
     const auto sites = sites_[routine];
-    if (sites == 0 || listed_[routine])
+    if (sites == 0)
       return false;
     return sites == 1 || sites * (bytes_[routine] + entry_bytes(routine)) <=
                              call_bytes_[routine] + bytes_[routine] + return_bytes + slack +
@@ -104,10 +100,8 @@ private:
   /// later round.
   bool is_leaf(std::uint32_t routine) const {
     return std::none_of(code_.lines.begin(), code_.lines.end(), [&](const CodeLine& line) {
-      bool calls = false;
-      if (line.routine == routine)
-        each_callee(code_, line, [&](std::uint32_t callee) { calls = calls || is_worth(callee); });
-      return calls;
+      const auto callee = callee_of(line);
+      return line.routine == routine && callee != none && is_worth(callee);
     });
   }
 
@@ -162,7 +156,6 @@ private:
 
   Code& code_;
   std::vector<std::uint32_t> sites_;      ///< of each routine: how often it is called
-  std::vector<bool> listed_;              ///< of each routine: an `on … gosub` calls it
   std::vector<std::uint32_t> bytes_;      ///< of each routine
   std::vector<std::uint32_t> call_bytes_; ///< of all calls of each routine
   std::vector<std::uint32_t> results_;    ///< of each routine: the variable of its result, or none

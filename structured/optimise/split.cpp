@@ -41,7 +41,6 @@ bool pass(const Code& code, const Ranges& ranges, const CodeLine& line, State& s
   case LineKind::Return:
   case LineKind::Switch:
   case LineKind::On:
-  case LineKind::OnGosub:
   case LineKind::Choice: return false;
   }
   return false;
@@ -245,7 +244,8 @@ public:
     for (const auto& line : code_.lines) {
       if (line.kind != LineKind::Return)
         routines_[line.routine].bytes += bytes_of(code_, line);
-      each_callee(code_, line, [&](std::uint32_t callee) { ++routines_[callee].calls; });
+      if (const auto callee = callee_of(line); callee != none)
+        ++routines_[callee].calls;
     }
     ranges_.each_state([&](std::uint32_t i, const State& state) {
       if (code_.lines[i].kind == LineKind::Gosub)

@@ -13,13 +13,6 @@ class SwitchWriter {
 public:
   explicit SwitchWriter(Code& code) : code_(code) {}
 
-  void join_all() {
-    at_ = lines_of_labels(code_);
-    for (auto& line : code_.lines)
-      if (line.kind == LineKind::On)
-        join_calls(line);
-    land();
-  }
   void write_all() {
     at_ = lines_of_labels(code_);
     const auto lines = std::exchange(code_.lines, {});
@@ -46,52 +39,6 @@ private:
     std::uint32_t otherwise; ///< where they lead when none holds
     std::vector<Case> cases;
   };
-
-  std::uint32_t after(std::uint32_t line) const {
-    while (line < code_.lines.size() && (code_.lines[line].kind == LineKind::Label ||
-                                         code_.lines[line].kind == LineKind::Nothing))
-      ++line;
-    return line;
-  }
-
-  /// `on e goto` to lines that each call a sub and go on at the same place.
-  void join_calls(CodeLine& line) {
-    std::uint32_t next = none;
-    std::vector<Part> calls;
-    for (auto n = line.parts_begin; n < line.parts_end; ++n) {
-      const auto at = at_[code_.parts[n].value];
-      const auto first = at == none ? code_.lines.size() : after(at);
-      if (first + 1 >= code_.lines.size() || code_.lines[first].kind != LineKind::Gosub)
-        return;
-      const auto& jump = code_.lines[first + 1];
-      const auto there =
-          jump.kind == LineKind::Goto && at_[jump.label] != none ? after(at_[jump.label])
-          : jump.kind == LineKind::Goto                          ? none
-                                        : after(static_cast<std::uint32_t>(first) + 1);
-      if (there == none || there >= code_.lines.size() || (next != none && next != there))
-        return;
-      next = there;
-      Part part;
-      part.kind = PartKind::Label;
-      part.value = code_.lines[first].label;
-      part.text.begin = code_.lines[first].variable; // the routine
-      calls.push_back(part);
-    }
-    // The first target comes right after, so the way on is a jump from there.
-    const auto index = static_cast<std::uint32_t>(&line - code_.lines.data());
-    if (after(index + 1) >= code_.lines.size() ||
-        code_.lines[after(index + 1)].kind != LineKind::Gosub)
-      return;
-    auto& first_call = code_.lines[after(index + 1)];
-    first_call.kind = LineKind::Goto;
-    first_call.label = code_.labels++;
-    at_.push_back(next);
-    landing_.push_back({next, first_call.label});
-    line.kind = LineKind::OnGosub;
-    line.parts_begin = static_cast<std::uint32_t>(code_.parts.size());
-    code_.parts.insert(code_.parts.end(), calls.begin(), calls.end());
-    line.parts_end = static_cast<std::uint32_t>(code_.parts.size());
-  }
 
   void plan_tests(const std::vector<CodeLine>& lines, std::uint32_t i) {
     const auto& line = lines[i];
@@ -156,31 +103,15 @@ private:
     }
   }
 
-  /// Puts the labels after `on … gosub` where the program goes on.
-  void land() {
-    std::sort(landing_.begin(), landing_.end(), std::greater<>());
-    for (const auto& [line, label] : landing_) {
-      CodeLine here;
-      here.kind = LineKind::Label;
-      here.label = label;
-      here.origin = code_.lines[line].origin;
-      here.routine = code_.lines[line].routine;
-      code_.lines.insert(code_.lines.begin() + line, here);
-    }
-    landing_.clear();
-  }
-
   Code& code_;
   std::vector<std::uint32_t> at_;
   std::map<std::uint32_t, std::vector<Tests>> tests_; ///< by the label of their body
   std::map<const CodeLine*, std::uint32_t> first_test_;
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> landing_; ///< line and label before it
 };
 
 } // namespace
 
 void write_switches(Code& code) {
-  SwitchWriter(code).join_all();
   SwitchWriter(code).write_all();
 }
 

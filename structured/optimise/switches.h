@@ -4,8 +4,7 @@
 
 namespace orb::structured {
 
-/// Writes what is left of `select` as tests, each before the lines it leads to; a choice among
-/// calls becomes the robot's `on … gosub`.
+/// Writes what is left of `select` as tests, each before the lines it leads to.
 void write_switches(Code& code);
 
 } // namespace orb::structured

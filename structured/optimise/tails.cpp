@@ -191,7 +191,6 @@ private:
     case LineKind::Return:
     case LineKind::Switch:
     case LineKind::On:
-    case LineKind::OnGosub:
     case LineKind::Choice: return false;
     }
     return false;
