@@ -223,7 +223,11 @@ private:
         pairs_.push_back({part.variable, part.code, none, outer});
       }
       part.innermost = open.empty() ? none : open.back();
-      if (part.effect != Effect::Closes)
+      const bool ends = part.effect == Effect::Closes &&
+                        std::any_of(open.begin(), open.end(), [&](std::uint32_t pair) {
+                          return pairs_[pair].variable == part.variable;
+                        });
+      if (!ends) // or it ends a loop that has been left
         continue;
       while (!open.empty() && pairs_[open.back()].variable != part.variable)
         open.pop_back();
@@ -244,7 +248,8 @@ private:
         continue;
       for (const auto& jump : jumps)
         if (!jump.call && jump.to != none &&
-            (jump.to < pairs_[pair].begin || jump.to > pairs_[pair].end)) {
+            (jump.to < pairs_[pair].begin || jump.to > pairs_[pair].end) &&
+            !is_ended_at(jump.to, pairs_[pair].variable)) {
           auto& d = findings_.add(
               rules::JumpOutOfFor, program_.items[jump.item].span,
               fmt::format("line {} is outside the loop, which is left open", number_of(jump.to)),
@@ -252,6 +257,12 @@ private:
           add_note(d, statement(pairs_[pair].begin).span, "the loop");
         }
     }
+  }
+
+  /// Whether the first line from here on that is more than straight text is the `next` of a loop.
+  bool is_ended_at(std::uint32_t code, std::uint32_t variable) const {
+    return ahead_[code] != none && parts_[ahead_[code]].effect == Effect::Closes &&
+           parts_[ahead_[code]].variable == variable;
   }
 
   void check_unended() {

@@ -5,16 +5,6 @@
 namespace orb::structured {
 namespace {
 
-bool sets_element(const Code& code, const CodeLine& line) {
-  if (line.kind == LineKind::SetElement)
-    return true;
-  if (line.kind == LineKind::Do)
-    for (auto i = line.parts_begin; i < line.parts_end; ++i)
-      if (code.parts[i].kind == PartKind::Element)
-        return true;
-  return false;
-}
-
 bool ends_block(const CodeLine& line) {
   switch (line.kind) {
   case LineKind::Goto:
@@ -110,6 +100,16 @@ void find_touched(const Code& code, Flow& flow) {
 }
 
 } // namespace
+
+bool sets_element(const Code& code, const CodeLine& line) {
+  if (line.kind == LineKind::SetElement)
+    return true;
+  if (line.kind == LineKind::Do)
+    for (auto i = line.parts_begin; i < line.parts_end; ++i)
+      if (code.parts[i].kind == PartKind::Element)
+        return true;
+  return false;
+}
 
 Flow read_flow(const Code& code) {
   Flow flow;

@@ -79,6 +79,9 @@ struct Flow {
 
 Flow read_flow(const Code& code);
 
+/// Whether a line itself sets an element.
+bool sets_element(const Code& code, const CodeLine& line);
+
 /// Calls `visit` with each label that a line can go to.
 template <typename C, typename L, typename Visit>
 void each_target(C& code, L& line, Visit visit) {

@@ -33,15 +33,8 @@ bool LineFacts::touches(const CodeLine& line, std::uint32_t variable) const {
 }
 
 bool LineFacts::sets_elements(const CodeLine& line) const {
-  if (line.kind == LineKind::SetElement)
-    return true;
-  bool found = false;
-  if (const auto routine = callee_of(line); routine != none)
-    found = flow_.sets_elements[routine];
-  if (line.kind == LineKind::Do)
-    for (auto i = line.parts_begin; i < line.parts_end; ++i)
-      found = found || code_.parts[i].kind == PartKind::Element;
-  return found;
+  const auto callee = callee_of(line);
+  return callee != none ? flow_.sets_elements[callee] : sets_element(code_, line);
 }
 
 std::uint8_t LineFacts::effects_of(const CodeLine& line) const {

@@ -4,6 +4,7 @@
 #include "structured/analyse/sizes.h"
 #include "structured/emit/fall.h"
 #include "structured/optimise/arms.h"
+#include "structured/optimise/counted.h"
 #include "structured/optimise/jumps.h"
 #include "structured/optimise/tails.h"
 #include "structured/text/words.h"
@@ -216,7 +217,7 @@ private:
         continue;
       for (auto test = i, other = at_[lines[i].label] + 1;
            test + 1 < lines.size() && other < lines.size(); ++test, ++other) {
-        if (!does_same(code_, lines[test + 1], lines[other], identity_) ||
+        if (!does_same(code_, lines[test + 1], lines[other]) ||
             !passes(lines[test], lines[test + 1]))
           break;
         join_knowledge(code_, lines[test + 1], lines[other]);
@@ -644,11 +645,11 @@ void write_choices(Code& code, const Letters& letters, const Program& program) {
   const Identity letter = [&](std::uint32_t variable) {
     return std::uint32_t{letters.of[variable]};
   };
-  merge_tails(code, letter);
-  straighten(code);
   put_end_last(code);
   clean_jumps(code);
   fall_through_tests(code);
+  count_loops(code, letter);
+  clean_jumps(code);
   ChoiceWriter(code, program, letter).run();
 }
 

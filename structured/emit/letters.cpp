@@ -120,12 +120,8 @@ Letters choose_letters(const Code& code, const std::vector<std::uint8_t>& wishes
     Colouring colouring(classes, interference.used, wishes, letters.available, index_used);
     if (!colouring.run())
       continue;
-    for (std::uint32_t v = 0; v < count; ++v) {
-      auto holder = v;
-      while (code.variables[holder].holder != none)
-        holder = code.variables[holder].holder;
-      letters.of[v] = colouring.letter(holder);
-    }
+    for (std::uint32_t v = 0; v < count; ++v)
+      letters.of[v] = colouring.letter(v);
     return letters;
   }
   letters.crowded_line = interference.crowded_line;

@@ -217,7 +217,11 @@ std::uint32_t Lowering::counting(std::uint32_t i) {
   const auto counter = symbol == none ? code_.new_variable() : variable_of(symbol);
   const auto step = size(node) > 3 ? evaluate(program_, names_, item(node, 3).value)->value : 1;
   let(counter, value(item(node, 1).value));
-  const auto last = kept(value(item(node, 2).value));
+  const auto bound = value(item(node, 2).value);
+  constexpr std::uint16_t small = 3; // computed again, it is shorter than a line for it
+  const bool twice =
+      plan_.native[i] && code_.terms[bound].effects == 0 && code_.terms[bound].size <= small;
+  const auto last = twice ? bound : kept(bound);
   const auto exit = new_label();
   const auto again = new_label();
   if (plan_.native[i]) {
@@ -245,7 +249,7 @@ void Lowering::native(std::uint32_t i, std::uint32_t end, std::uint32_t counter,
   auto& line = emit(LineKind::For);
   line.variable = counter;
   line.term = code_.read(counter);
-  line.end = last;
+  line.end = code_.copy(last);
   line.step = step;
   const auto top = new_label();
   line.label = top;

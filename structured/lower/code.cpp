@@ -173,19 +173,18 @@ bool can_fault(const Code& code, std::uint32_t term, std::uint32_t variable) {
   return false;
 }
 
-bool same(const Code& code, std::uint32_t a, std::uint32_t b, const Identity& identity) {
+bool same(const Code& code, std::uint32_t a, std::uint32_t b) {
   const auto& x = code.terms[a];
   const auto& y = code.terms[b];
   if (x.kind != y.kind || x.what != y.what || x.effects != y.effects)
     return false;
   switch (x.kind) {
   case TermKind::Number: return x.value == y.value;
-  case TermKind::Variable: return identity(x.left) == identity(y.left);
+  case TermKind::Variable: return x.left == y.left;
   case TermKind::Element:
   case TermKind::System: return true;
-  case TermKind::Binary:
-    return same(code, x.left, y.left, identity) && same(code, x.right, y.right, identity);
-  case TermKind::Call: return same(code, x.left, y.left, identity);
+  case TermKind::Binary: return same(code, x.left, y.left) && same(code, x.right, y.right);
+  case TermKind::Call: return same(code, x.left, y.left);
   }
   return false;
 }

@@ -128,7 +128,6 @@ struct CodeLine {
 struct CodeVariable {
   std::uint32_t symbol = none; ///< none: a temporary
   bool kept = false;           ///< somebody may look at it at any time
-  std::uint32_t holder = none; ///< the variable that it has become, a copy of it
 };
 
 /// A statement whose index is outside of its array wherever it runs.
@@ -191,12 +190,9 @@ bool can_fault(const Code& code, std::uint32_t term, std::uint32_t variable);
 
 /// What two variables are compared by: themselves, or the letters that hold them.
 using Identity = std::function<std::uint32_t(std::uint32_t variable)>;
-inline std::uint32_t itself(std::uint32_t variable) {
-  return variable;
-}
 
 /// Whether two terms compute the same from the same variables, if nothing happens in between.
-bool same(const Code& code, std::uint32_t a, std::uint32_t b, const Identity& identity = itself);
+bool same(const Code& code, std::uint32_t a, std::uint32_t b);
 
 /// Whether a line may stop the program; jumps and calls themselves do not, nor does what they lead
 /// to count.

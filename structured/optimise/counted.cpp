@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <limits>
 #include <optional>
+#include <span>
 
 namespace orb::structured {
 namespace {
@@ -15,13 +16,11 @@ using spec::Operator;
 
 class LoopCounter {
 public:
-  explicit LoopCounter(Code& code) : code_(code) {}
+  LoopCounter(Code& code, const Identity& identity) : code_(code), identity_(identity) {}
 
-  bool run() {
-    bool any = false;
+  void run() {
     while (once())
-      any = true;
-    return any;
+      ;
   }
 
 private:
@@ -30,9 +29,9 @@ private:
     std::uint32_t begin = none; ///< the label
     std::uint32_t count = none; ///< the line that counts
     std::uint32_t test = none;
-    std::uint32_t entry = none; ///< a jump to the test, before the label
     std::uint32_t variable = none;
     std::uint32_t last = none; ///< a term
+    compiler::Range end;       ///< what is known of what the test compares with
     std::int32_t step = 0;
   };
 
@@ -40,7 +39,7 @@ private:
     named_ = tidy(code_);
     at_ = lines_of_labels(code_);
     for (std::uint32_t i = 0; i < code_.lines.size(); ++i)
-      if (auto loop = counted_by(i); loop && only_left_at_end(*loop) && counts_alone(*loop) &&
+      if (auto loop = counted_by(i); loop && counts_alone(*loop) && can_be_left(*loop) &&
                                      depth_with(*loop) <= spec::value_of(spec::Limit::ForDepth)) {
         write(*loop);
         return true;
@@ -57,15 +56,6 @@ private:
     loop.begin = at_[test.label];
     loop.test = i;
     loop.count = i - 1;
-    const auto& above = code_.lines[i - 1];
-    if (above.kind == LineKind::Label) {
-      loop.count = i - 2;
-      loop.entry = loop.begin - 1;
-      if (named_[above.label] != 1 || loop.begin == 0 || loop.count <= loop.begin ||
-          code_.lines[loop.entry].kind != LineKind::Goto ||
-          code_.lines[loop.entry].label != above.label)
-        return std::nullopt;
-    }
     const auto& count = code_.lines[loop.count];
     const auto sum = count.kind == LineKind::Let ? code_.terms[count.term] : Term{};
     const bool adds = sum.what == static_cast<int>(Operator::Add);
@@ -84,7 +74,7 @@ private:
   }
 
   /// The last value that is counted where a loop goes on while a relation holds, or none.
-  std::uint32_t last_of(Relation relation, const Loop& loop) {
+  std::uint32_t last_of(Relation relation, Loop& loop) {
     if (!reads_only(relation.left, loop.variable)) {
       std::swap(relation.left, relation.right);
       std::swap(relation.left_range, relation.right_range);
@@ -94,6 +84,7 @@ private:
       return none;
     if (code_.is_number(relation.right))
       relation.right_range = compiler::Range::only(code_.terms[relation.right].value);
+    loop.end = relation.right_range;
     using Limits = std::numeric_limits<std::int32_t>;
     const auto& [counted, end] = std::pair{relation.left_range, relation.right_range};
     const bool up = loop.step > 0;
@@ -113,33 +104,77 @@ private:
     return at_[label] != none && loop.begin < at_[label] && at_[label] < loop.test;
   }
 
-  /// Whether nothing leads out of a loop but its test, and nothing into it but its begin.
-  bool only_left_at_end(const Loop& loop) {
-    std::vector<std::uint32_t> inside(code_.labels, 0); // how often labels are named there
-    bool good = true;
-    for (auto i = loop.begin + 1; i < loop.test; ++i) {
-      const auto& line = code_.lines[i];
-      each_target(code_, line, [&](std::uint32_t label) {
-        ++inside[label];
-        good = good && is_within(loop, label);
-      });
-      good = good && line.kind != LineKind::Return;
-    }
-    for (auto i = loop.begin + 1; good && i < loop.count; ++i)
-      if (code_.lines[i].kind == LineKind::Label)
-        good = inside[code_.lines[i].label] == named_[code_.lines[i].label];
+  bool is(std::uint32_t i, LineKind kind) const {
+    return i < code_.lines.size() && code_.lines[i].kind == kind;
+  }
+
+  /// Whether only line `count` sets the variable, and the last value stays what it is. Variables
+  /// that share a letter are one.
+  bool counts_alone(const Loop& loop) {
+    flow_ = read_flow(code_);
+    const auto is_set = [&](std::uint32_t variable) {
+      bool found = false;
+      const auto visit = [&](std::uint32_t v) {
+        found = found || identity_(v) == identity_(variable);
+      };
+      for (auto i = loop.begin; i < loop.count; ++i) {
+        each_write(code_, code_.lines[i], visit);
+        if (const auto callee = callee_of(code_.lines[i]); callee != none)
+          each_member(flow_.written[callee], visit);
+      }
+      return found;
+    };
+    bool good = !is_set(loop.variable);
+    each_read(code_, loop.last, [&](std::uint32_t v) {
+      good = good && identity_(v) != identity_(loop.variable) && !is_set(v);
+    });
     return good;
   }
 
-  /// Whether only line `count` sets the variable and the last value stays what it is.
-  bool counts_alone(const Loop& loop) const {
-    const auto flow = read_flow(code_);
-    const LineFacts facts(code_, flow);
-    for (auto i = loop.begin + 1; i < loop.test; ++i)
-      if (const auto& line = code_.lines[i];
-          facts.disturbs(line, loop.last) || (i != loop.count && facts.writes(line, loop.variable)))
-        return false;
-    return !facts.reads(loop.last, loop.variable);
+  /// Whether nothing leads into a loop but its begin, and what leads out of it, before its test,
+  /// can end it: it leads where nothing else does, or right behind the loop, and the variable is
+  /// not needed there.
+  bool can_be_left(const Loop& loop) {
+    const auto& lines = code_.lines;
+    std::vector<std::uint32_t> inside(code_.labels, 0); // how often labels are named there
+    bool good = true;
+    exits_.clear();
+    for (auto i = loop.begin + 1; i < loop.test; ++i) {
+      each_target(code_, lines[i], [&](std::uint32_t label) {
+        ++inside[label];
+        if (at_[label] == none || at_[label] <= loop.begin || at_[label] >= loop.test)
+          exits_.push_back({i, label});
+      });
+      good = good && lines[i].kind != LineKind::Return;
+    }
+    for (auto i = loop.begin + 1; good && i < loop.count; ++i)
+      if (lines[i].kind == LineKind::Label)
+        good = inside[lines[i].label] == named_[lines[i].label];
+    if (!good || exits_.empty())
+      return good;
+    const auto liveness = read_liveness(code_, flow_);
+    for (const auto& [line, label] : exits_) {
+      const auto at = at_[label];
+      const bool apart = at != none && at > 0 && inside[label] == named_[label] &&
+                         !falls_through(lines[at - 1]) && !is(at + 2, LineKind::Next);
+      good = good && !lines[line].guard && (apart || leads_behind(loop, line));
+      if (good)
+        each_member(liveness.in[flow_.block_of_label[label]], [&](std::uint32_t v) {
+          good = good && identity_(v) != identity_(loop.variable);
+        });
+    }
+    using Limits = std::numeric_limits<std::int32_t>;
+    const bool passes = loop.step > 0 ? loop.end.hi <= Limits::max() - loop.step
+                                      : loop.end.lo >= Limits::min() - loop.step;
+    return good && passes && !code_.variables[loop.variable].kept;
+  }
+
+  /// Whether line `i` leads right behind a loop.
+  bool leads_behind(const Loop& loop, std::uint32_t i) const {
+    auto n = loop.test + 1;
+    while (is(n, LineKind::Label) && code_.lines[n].label != code_.lines[i].label)
+      ++n;
+    return is(n, LineKind::Label) && (is(i, LineKind::If) || is(i, LineKind::Goto));
   }
 
   /// How many loops of the robot are open at once at most, with this one.
@@ -155,7 +190,7 @@ private:
         deepest = std::max(deepest, here);
         if (const auto callee = callee_of(line); callee != none)
           above[callee] = std::max(above[callee], here);
-        here -= line.kind == LineKind::Next || i == loop.test ? 1 : 0;
+        here -= (line.kind == LineKind::Next && line.step != 0) || i == loop.test ? 1 : 0;
       }
     }
     return deepest;
@@ -163,47 +198,95 @@ private:
 
   void write(const Loop& loop) {
     auto& lines = code_.lines;
-    const auto test = lines[loop.test];
-    auto first = lines[loop.count];
+    const auto top = lines[loop.test].label;
+    auto set = lines[loop.count]; // makes a turn the last one
+    set.term = loop.last;
+    auto first = set;
     first.kind = LineKind::For;
     first.term = code_.read(loop.variable);
     first.end = loop.last;
     first.step = loop.step;
-    first.label = test.label;
+    first.label = top;
     auto& next = lines[loop.test];
-    next = lines[loop.count];
+    next = set;
     next.kind = LineKind::Next;
-    next.label = test.label;
+    next.label = top;
     next.step = loop.step;
     next.term = none;
+    const auto end = next;
     lines[loop.count].kind = LineKind::Nothing;
+    std::vector<std::uint32_t> behind;
+    std::erase_if(exits_, [&](const auto& exit) {
+      const bool leads = leads_behind(loop, exit.first);
+      if (leads)
+        behind.push_back(exit.first);
+      return leads;
+    });
+    if (!behind.empty())
+      make_last(loop.count, behind, set);
+    if (auto& start = lines[loop.begin - (loop.begin > 0 ? 1 : 0)];
+        start.kind == LineKind::Let && start.variable == loop.variable && !start.guard) {
+      first.term = start.term;
+      start.kind = LineKind::Nothing;
+    }
     lines.insert(lines.begin() + loop.begin, first);
-    if (loop.entry == none)
-      return;
-    auto& entry = lines[loop.entry];
-    auto after = entry;
-    after.kind = LineKind::Label;
-    after.label = code_.labels++;
-    code_.conditions.push_back(Condition{code_.conditions[test.condition]});
-    auto& relation = code_.conditions.back().first;
-    relation.comparison = opposite(relation.comparison);
-    relation.left = code_.copy(relation.left);
-    relation.right = code_.copy(relation.right);
-    entry.kind = LineKind::If;
-    entry.label = after.label;
-    entry.condition = static_cast<std::uint32_t>(code_.conditions.size()) - 1;
-    lines.insert(lines.begin() + loop.test + 2, after);
+    for (const auto& [line, label] : exits_)
+      end_at(label, set, end);
+  }
+
+  /// What leads behind a loop makes its turn the last one, and leads to the counting.
+  void make_last(std::uint32_t count, const std::vector<std::uint32_t>& exits, CodeLine set) {
+    auto& lines = code_.lines;
+    const auto exit = exits.back();
+    auto jump = lines[exit];
+    jump.kind = LineKind::Goto;
+    jump.label = code_.labels++;
+    set.origin = jump.origin;
+    const auto label = [&](std::uint32_t name) {
+      auto line = jump;
+      line.kind = LineKind::Label;
+      line.label = name;
+      return line;
+    };
+    std::vector<CodeLine> last{label(code_.labels++), set, jump};
+    for (const auto other : exits)
+      lines[other].label = last.front().label;
+    if (is(exit, LineKind::If)) {
+      auto& comparison = code_.conditions[lines[exit].condition].first.comparison;
+      comparison = opposite(comparison);
+      lines[exit].label = code_.labels++;
+      last.push_back(label(lines[exit].label));
+    } else {
+      lines[exit].kind = LineKind::Nothing;
+    }
+    lines.insert(lines.begin() + count, label(jump.label));
+    lines.insert(lines.begin() + exit + 1, last.begin(), last.end());
+  }
+
+  /// Where only exits lead, the loop is ended first.
+  void end_at(std::uint32_t label, CodeLine set, CodeLine next) {
+    const auto at = lines_of_labels(code_)[label];
+    const auto& line = code_.lines[at];
+    if (is(at + 2, LineKind::Next))
+      return; // it is already
+    set.origin = next.origin = line.origin;
+    set.routine = next.routine = line.routine;
+    next.step = 0;
+    code_.lines.insert(code_.lines.begin() + at + 1, {set, next});
   }
 
   Code& code_;
+  const Identity& identity_;
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> exits_; ///< lines, and labels outside
+  Flow flow_;
   std::vector<std::uint32_t> named_; ///< of each label: how often
   std::vector<std::uint32_t> at_;    ///< of each label: its line
 };
 
 } // namespace
 
-bool count_loops(Code& code) {
-  return LoopCounter(code).run();
+void count_loops(Code& code, const Identity& identity) {
+  LoopCounter(code, identity).run();
 }
 
 } // namespace orb::structured

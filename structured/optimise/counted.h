@@ -4,8 +4,9 @@
 
 namespace orb::structured {
 
-/// Loops that count and are only left at their end become loops of the robot: its `next` counts,
-/// tests and jumps in one line. True where there were any.
-bool count_loops(Code& code);
+/// Loops that count become loops of the robot: its `next` counts, tests and jumps in one line.
+/// Where one is left before its end, that turn is made the last and a second `next` ends it, which
+/// no other pass knows: this comes last. Variables that share a letter are one.
+void count_loops(Code& code, const Identity& identity);
 
 } // namespace orb::structured

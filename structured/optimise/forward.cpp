@@ -29,8 +29,8 @@ bool is_dead(const Code& code, const CodeLine& line, std::span<const std::uint64
 class Forwarder {
 public:
   explicit Forwarder(Code& code)
-      : code_(code), named_(tidy(code)), at_(lines_of_labels(code)), flow_(read_flow(code)),
-        facts_(code_, flow_), liveness_(read_liveness(code, flow_)) {}
+      : code_(code), named_(tidy(code)), flow_(read_flow(code)), facts_(code_, flow_),
+        liveness_(read_liveness(code, flow_)) {}
 
   bool run() {
     constexpr int most_copies = 8;
@@ -41,15 +41,11 @@ public:
     go_back();
     reads_ = reads_of(code_);
     const auto size = static_cast<std::uint32_t>(code_.lines.size());
-    for (std::uint32_t i = 0; i < size; ++i)
-      if (code_.lines[i].kind == LineKind::Let)
-        drop_repeated(i);
     if (reads_[index_variable] > 0)
       reuse_elements();
-    reuse_values();
     for (auto i = size; i-- > 0;)
-      if (code_.lines[i].kind == LineKind::Let && !move(i) && !copy(i))
-        repeat(i);
+      if (code_.lines[i].kind == LineKind::Let && !move(i))
+        copy(i);
     return changed_;
   }
 
@@ -242,100 +238,10 @@ private:
     return true;
   }
 
-  /// Computes a sum of two leaves again where it is read, which is shorter than a line for it;
-  /// reads an element again.
-  void repeat(std::uint32_t i) {
-    const auto variable = code_.lines[i].variable;
-    const auto term = code_.lines[i].term;
-    constexpr std::uint32_t most_reads = 2;
-    const auto& node = code_.terms[term];
-    const bool element = node.kind == TermKind::Element && node.effects == effect::elements;
-    const bool sum = node.kind == TermKind::Binary && node.size == 3 && node.effects == 0;
-    if (variable == index_variable || code_.variables[variable].kept ||
-        reads_[variable] > most_reads || (!element && !sum) || facts_.reads(term, variable))
-      return;
-    std::vector<std::pair<std::uint32_t*, std::uint32_t>> better; // roots
-    std::uint32_t found = 0;
-    auto last = i + 1;
-    for (auto j = i + 1; j < code_.lines.size() && j < i + reach && found < reads_[variable]; ++j) {
-      auto& line = code_.lines[j];
-      if (line.kind == LineKind::Label ||
-          (line.kind == LineKind::For && // sets it, then reads on
-           (line.variable == variable || facts_.reads(term, line.variable))))
-        return;
-      // What a statement is given keeps the name that a fault speaks of.
-      bool deep = false;
-      const auto before_line = found;
-      each_root(code_, line, [&](std::uint32_t& root) {
-        each_read(code_, root, [&](std::uint32_t v) { found += v == variable ? 1 : 0; });
-        std::uint8_t before = 0;
-        const auto result = replaced(root, variable, term, before);
-        deep = deep || !result;
-        if (result && *result != root)
-          better.push_back({&root, *result});
-      });
-      last = j;
-      if (line.kind == LineKind::Do && found > before_line)
-        deep = deep || code_.variables[variable].symbol != none;
-      if (deep ||
-          (found < reads_[variable] && (facts_.writes(line, variable) ||
-                                        facts_.disturbs(line, term) || facts_.ends_text(line))))
-        return;
-    }
-    if (found == 0 || found != reads_[variable])
-      return;
-    for (const auto& [root, result] : better)
-      *root = result;
-    each_read(code_, term, [&](std::uint32_t v) {
-      reads_[v] += found;
-      for (auto k = i; k <= last; ++k)
-        remove(last_reads_[k], v);
-    });
-    reads_[variable] = 0;
-    drop(code_.lines[i]);
-  }
-
   std::uint32_t renamed(std::uint32_t root, std::uint32_t from, std::uint32_t to) {
     return with_variables(code_, root, [&](std::uint32_t term) {
       return code_.terms[term].left == from ? code_.read(to) : term;
     });
-  }
-
-  // ---- what is set to the same again
-
-  void drop_repeated(std::uint32_t i) {
-    const auto variable = code_.lines[i].variable;
-    const auto term = code_.lines[i].term;
-    constexpr std::uint8_t moving = effect::clears | effect::senses | effect::elements;
-    if ((code_.terms[term].effects & moving) != 0 || facts_.reads(term, variable))
-      return;
-    drop_repeated(i, i + 1, none);
-  }
-
-  /// The same below line `from`, to which line `jump` leads, or which is the one below.
-  void drop_repeated(std::uint32_t i, std::uint32_t from, std::uint32_t jump) {
-    const auto variable = code_.lines[i].variable;
-    const auto term = code_.lines[i].term;
-    const auto size = static_cast<std::uint32_t>(code_.lines.size());
-    for (auto j = from; j < std::min(size, from + reach); ++j) {
-      auto& line = code_.lines[j];
-      if (line.kind == LineKind::Let && line.variable == variable && same(code_, line.term, term)) {
-        drop(line);
-        for (auto k = i; jump != none && k <= jump; ++k) // the value is read on
-          remove(last_reads_[k], variable);
-        for (auto k = jump == none ? i : from; k <= j; ++k)
-          remove(last_reads_[k], variable);
-        if (jump != none)
-          insert(liveness_.in[flow_.block_of_label[code_.lines[jump].label]], variable);
-        continue;
-      }
-      if (line.kind == LineKind::Label || facts_.ends_text(line) || facts_.writes(line, variable) ||
-          facts_.disturbs(line, term))
-        return;
-      if (line.kind == LineKind::If && jump == none &&
-          only_jump_leads_to(code_, named_, at_, line.label))
-        drop_repeated(i, at_[line.label] + 1, j);
-    }
   }
 
   /// Reads the original all through the program where a copy, once made, is never another value
@@ -549,7 +455,7 @@ private:
         continue;
       }
       if (line.kind == LineKind::Gosub) {
-        known = {};
+        keep_over_call(line, known);
         continue;
       }
       if (line.kind == LineKind::Let && line.variable == index_variable && index != none &&
@@ -598,6 +504,16 @@ private:
         elements.push_back({at, code_.terms[line.term].left, i});
       }
     }
+  }
+
+  void keep_over_call(const CodeLine& call, Known& known) const {
+    if (known.index != none &&
+        (facts_.writes(call, index_variable) || facts_.disturbs(call, known.index)))
+      known.index = none;
+    std::erase_if(known.held, [&](const Held& held) {
+      return facts_.sets_elements(call) || facts_.writes(call, held.variable) ||
+             facts_.disturbs(call, held.index);
+    });
   }
 
   /// Whether a term stays the same while its variables do.
@@ -668,97 +584,11 @@ private:
            !facts_.reads(set.term, index_variable) && !facts_.reads(store.term, index_variable);
   }
 
-  // ---- values that a variable holds
-
-  struct HeldValue {
-    std::uint32_t term;
-    std::uint32_t variable;
-    std::uint32_t since; ///< this line
-  };
-
-  /// What a variable that stays holds already is read from it, and not set again.
-  void reuse_values() {
-    values_.clear();
-    for (std::uint32_t i = 0; i < code_.lines.size(); ++i) {
-      auto& line = code_.lines[i];
-      if (LineFacts::ends_text(line)) {
-        values_.clear();
-        continue;
-      }
-      if (line.kind == LineKind::Let && holds(line.variable, line.term)) {
-        drop(line);
-        continue;
-      }
-      if (!values_.empty() && line.kind != LineKind::For) // whose end is computed later
-        each_root(code_, line, [&](std::uint32_t& root) { root = reused(root, i); });
-      std::erase_if(values_, [&](const HeldValue& held) {
-        return facts_.disturbs(line, held.term) || facts_.writes(line, held.variable);
-      });
-      if (line.kind == LineKind::Let && !facts_.reads(line.term, line.variable))
-        keep_value(i);
-    }
-  }
-
-  void keep_value(std::uint32_t i) {
-    const auto& line = code_.lines[i];
-    const auto& term = code_.terms[line.term];
-    constexpr std::uint8_t moving = effect::clears | effect::senses | effect::elements;
-    if (term.kind == TermKind::Variable) {
-      for (std::size_t n = 0, size = values_.size(); n < size; ++n)
-        if (values_[n].variable == term.left)
-          values_.push_back({values_[n].term, line.variable, i});
-    } else if (!code_.is_number(line.term) && (term.effects & moving) == 0) {
-      values_.push_back({line.term, line.variable, i});
-    }
-  }
-
-  /// Whether a variable has the value of a term, which is one that is held or a variable that has
-  /// it, too.
-  bool holds(std::uint32_t variable, std::uint32_t term) const {
-    const auto has = [&](std::uint32_t v, std::uint32_t value) {
-      return std::any_of(values_.begin(), values_.end(), [&](const HeldValue& held) {
-        return held.variable == v && same(code_, held.term, value);
-      });
-    };
-    const auto& node = code_.terms[term];
-    if (node.kind != TermKind::Variable)
-      return has(variable, term);
-    return std::any_of(values_.begin(), values_.end(), [&](const HeldValue& held) {
-      return held.variable == node.left && has(variable, held.term);
-    });
-  }
-
-  /// A term with the variables that hold parts of it.
-  std::uint32_t reused(std::uint32_t root, std::uint32_t line) {
-    const auto node = code_.terms[root];
-    if (node.kind != TermKind::Binary && node.kind != TermKind::Call)
-      return root;
-    for (const auto& held : values_)
-      if ((held.variable == index_variable || reads_[held.variable] > 1) &&
-          same(code_, held.term, root)) {
-        each_read(code_, root, [&](std::uint32_t v) { --reads_[v]; });
-        ++reads_[held.variable];
-        for (auto k = held.since; k < line; ++k) // it is read on
-          remove(last_reads_[k], held.variable);
-        changed_ = true;
-        return code_.read(held.variable);
-      }
-    const auto left = reused(node.left, line);
-    if (node.kind == TermKind::Call)
-      return left == node.left ? root : code_.call(static_cast<spec::Function>(node.what), left);
-    const auto right = reused(node.right, line);
-    return left == node.left && right == node.right
-               ? root
-               : code_.binary(static_cast<spec::Operator>(node.what), left, right);
-  }
-
   Code& code_;
   std::vector<std::uint32_t> named_; ///< of each label: how often
-  std::vector<std::uint32_t> at_;    ///< of each label: its line
   Flow flow_;
   LineFacts facts_;
   Liveness liveness_;
-  std::vector<HeldValue> values_;
   std::vector<std::vector<std::uint32_t>> writes_; ///< of each variable: blocks that set it
   VariableSets last_reads_;
   std::vector<std::uint32_t> reads_; ///< of each variable, in all lines

@@ -1,13 +1,12 @@
 #include "structured/optimise/optimise.h"
 
 #include "structured/optimise/arms.h"
-#include "structured/optimise/copies.h"
-#include "structured/optimise/counted.h"
 #include "structured/optimise/elements.h"
 #include "structured/optimise/forward.h"
 #include "structured/optimise/inline.h"
 #include "structured/optimise/jumps.h"
 #include "structured/optimise/long_prints.h"
+#include "structured/optimise/repeated.h"
 #include "structured/optimise/switches.h"
 #include "structured/optimise/tails.h"
 #include "structured/optimise/values.h"
@@ -48,20 +47,19 @@ void settle(Code& code, std::span<Pass> passes, std::uint32_t& changes) {
 
 void shorten(Code& code) {
   Pass passes[] = {
-      {clean_jumps},
-      {count_loops},
-      {split_variables},
-      {forward_values},
-      {[](Code& one) { return merge_tails(one, itself); }},
-      {inline_calls},
-      {straighten},
-      {[](Code& one) { return use_values(one, Ways::Split); }},
+      {clean_jumps},    {split_variables},
+      {forward_values}, {drop_repeated},
+      {merge_tails},    {inline_calls},
+      {straighten},     {[](Code& one) { return use_values(one, Ways::Split); }},
   };
+  constexpr std::size_t of_calls = 4; // those that find the calls that need not be made
   std::uint32_t changes = 0;
+  clean_jumps(code);
+  if (calls_repeat(code)) // before they are written out
+    settle(code, std::span(passes).first(of_calls), changes);
   settle(code, passes, changes);
   // Nothing is left that reads the original instead.
   changes += use_elements(code) ? 1 : 0;
-  changes += join_copies(code) ? 1 : 0;
   changes += compute_arms(code) ? 1 : 0; // no way is known by these numbers any more
   settle(code, passes, changes);
   clean_jumps(code);

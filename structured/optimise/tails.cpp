@@ -14,17 +14,17 @@ bool may_join(const Code& code, const CodeLine& a, const CodeLine& b) {
   return a.origin == b.origin || !(a.guard || b.guard || may_fault(code, a) || may_fault(code, b));
 }
 
-bool same_part(const Code& code, const Part& a, const Part& b, const Identity& identity) {
+bool same_part(const Code& code, const Part& a, const Part& b) {
   if (a.kind != b.kind || !(a.text == b.text))
     return false;
   if (a.kind == PartKind::Term || a.kind == PartKind::Character)
-    return same(code, a.value, b.value, identity);
-  return a.kind == PartKind::Variable ? identity(a.value) == identity(b.value) : a.value == b.value;
+    return same(code, a.value, b.value);
+  return a.value == b.value;
 }
 
 class Merger {
 public:
-  Merger(Code& code, const Identity& identity) : code_(code), identity_(identity) {}
+  explicit Merger(Code& code) : code_(code) {}
 
   bool run() {
     constexpr int most_rounds = 16;
@@ -167,7 +167,7 @@ private:
     if (a.kind != b.kind || a.routine != b.routine || a.step != b.step || !may_join(code_, a, b))
       return false;
     const bool counts = a.kind == LineKind::For || a.kind == LineKind::Next;
-    if (counts && identity_(a.variable) != identity_(b.variable))
+    if (counts && a.variable != b.variable)
       return false;
     switch (a.kind) {
     case LineKind::Label: return pair_up(a.label, b.label, 0);
@@ -186,7 +186,7 @@ private:
     case LineKind::SetSystem:
     case LineKind::Gosub:
     case LineKind::Print:
-    case LineKind::Do: return does_same(code_, a, b, identity_);
+    case LineKind::Do: return does_same(code_, a, b);
     case LineKind::Nothing:
     case LineKind::Return:
     case LineKind::Switch:
@@ -196,9 +196,7 @@ private:
     return false;
   }
 
-  bool same(std::uint32_t a, std::uint32_t b) const {
-    return structured::same(code_, a, b, identity_);
-  }
+  bool same(std::uint32_t a, std::uint32_t b) const { return structured::same(code_, a, b); }
   bool same(const Condition& a, const Condition& b) const {
     return a.glue == Glue::None && b.glue == Glue::None &&
            a.first.comparison == b.first.comparison && same(a.first.left, b.first.left) &&
@@ -206,7 +204,6 @@ private:
   }
 
   Code& code_;
-  const Identity& identity_;
   std::vector<std::uint32_t> named_; ///< of each label: how often
   std::vector<std::uint32_t> loops_; ///< of each line: what stays in a loop
   std::vector<bool> taken_;          ///< of each line: it is part of a tail already
@@ -216,19 +213,17 @@ private:
 
 } // namespace
 
-bool does_same(const Code& code, const CodeLine& a, const CodeLine& b, const Identity& identity) {
+bool does_same(const Code& code, const CodeLine& a, const CodeLine& b) {
   if (a.kind != b.kind || a.robot != b.robot || !falls_through(a) || !may_join(code, a, b))
     return false;
   if (a.kind == LineKind::Gosub)
     return a.label == b.label;
-  if (a.kind == LineKind::Let)
-    return identity(a.variable) == identity(b.variable) && same(code, a.term, b.term, identity);
-  if (a.kind == LineKind::SetElement || a.kind == LineKind::SetSystem)
-    return a.variable == b.variable && same(code, a.term, b.term, identity);
+  if (a.kind == LineKind::Let || a.kind == LineKind::SetElement || a.kind == LineKind::SetSystem)
+    return a.variable == b.variable && same(code, a.term, b.term);
   return (a.kind == LineKind::Print || a.kind == LineKind::Do) &&
          std::equal(code.parts.begin() + a.parts_begin, code.parts.begin() + a.parts_end,
                     code.parts.begin() + b.parts_begin, code.parts.begin() + b.parts_end,
-                    [&](const Part& x, const Part& y) { return same_part(code, x, y, identity); });
+                    [&](const Part& x, const Part& y) { return same_part(code, x, y); });
 }
 
 void join_knowledge(Code& code, CodeLine& kept, const CodeLine& other) {
@@ -245,8 +240,8 @@ void join_knowledge(Code& code, CodeLine& kept, const CodeLine& other) {
   }
 }
 
-bool merge_tails(Code& code, const Identity& identity) {
-  return Merger(code, identity).run();
+bool merge_tails(Code& code) {
+  return Merger(code).run();
 }
 
 } // namespace orb::structured

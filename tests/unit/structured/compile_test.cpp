@@ -78,6 +78,76 @@ TEST(Lines, ALoopThatIsLeftKeepsNoFrame) {
             std::string::npos);
 }
 
+TEST(Lines, ALoopThatIsLeftMakesItsLastTurn) {
+  EXPECT_EQ(lines("loop\n  for t = 1 to 9\n    delay 1s\n    if yaw > 90 or speed > 5 then exit\n"
+                  "  next t\n  LEDC 1\nend loop\n"),
+            "1 for T = 1 to 9\n2 delay 1000\n3 if yaw > 90 or speed > 5 then T = 9\n4 next T\n"
+            "5 LEDC 1\n6 goto 1\n");
+  EXPECT_EQ(lines("for t = 9 to 1 step -2\n  delay 1s\n  if yaw > 90 then\n    LEDC 1\n    exit\n"
+                  "  end if\n  LEDC 2\nnext t\ndelay 2s\n"),
+            "1 for T = 9 to 1 step -2\n2 delay 1000\n3 if yaw > 90 then goto 6\n4 LEDC 2\n"
+            "5 goto 8\n6 LEDC 1\n7 T = 1\n8 next T\n9 delay 2000\n");
+}
+
+TEST(Lines, ALoopThatIsLeftForElsewhereIsEndedThere) {
+  const auto text = "loop\n  hit = 0\n  for t = 1 to 9\n    delay 1s\n    if yaw > 90 then\n"
+                    "      hit = 1\n      exit\n    end if\n    LEDC t\n  next t\n"
+                    "  if hit then\n    print \"hit\"\n    RGB red\n  else\n    print \"none\"\n"
+                    "    RGB blue\n  end if\nend loop\n";
+  EXPECT_EQ(lines(text),
+            "1 for T = 1 to 9\n2 delay 1000\n3 if yaw > 90 then goto 9\n4 LEDC T\n5 next T\n"
+            "6 print \"none\"\n7 RGB 0,0,255\n8 goto 1\n9 T = 9\n10 next T\n11 print \"hit\"\n"
+            "12 RGB 255,0,0\n13 goto 1\n");
+  EXPECT_TRUE(compiled(text).program.diagnostics.empty()); // no loop is left open
+}
+
+TEST(Lines, ALoopWhoseCounterIsNeededWhereItIsLeftIsNone) {
+  EXPECT_EQ(lines("for i = 1 to 9\n  delay 1s\n  if yaw > 90 then exit\nnext i\nprint i\n"),
+            "1 I = 1\n2 delay 1000\n3 if yaw > 90 then goto 6\n4 I = I + 1\n"
+            "5 if I < 10 then goto 2\n6 print I\n");
+}
+
+/// A function that is too long to be written out, of an array `a` with four elements, and what
+/// follows.
+std::string with_peak(std::string_view program) {
+  return "array a[4]\narray b[4]\nfunction peak(n)\n  local best\n  for i = 1 to n\n"
+         "    best = max(best, a[i])\n  next i\n  return best\nend function\n" +
+         std::string(program);
+}
+
+std::size_t count_of(const std::string& text, const std::string& word);
+
+TEST(Lines, ACallWhoseResultIsThereIsNotMadeAgain) {
+  const auto calls = [](std::string_view program) {
+    return count_of(lines(with_peak(program)), "gosub");
+  };
+  EXPECT_EQ(calls("input x\nprint peak(x)\nprint yaw, peak(x)\na[2] = yaw\nprint peak(x)\n"), 2U);
+  // What is set is in another array, and both ways of a test keep the result.
+  EXPECT_EQ(calls("input x\nprint peak(x)\nb[2] = yaw\nif yaw > 3 then LEDC 1\nprint peak(x)\n"
+                  "a[1] = 1\nprint peak(x), b[rnd(4)]\n"),
+            2U);
+  // One way changes what it is given; what it has given is another's now.
+  EXPECT_EQ(calls("input x\nprint peak(x)\nif yaw > 3 then x = 2\nprint peak(x)\n"), 2U);
+  EXPECT_EQ(calls("input x\nk = peak(x)\nk += peak(x - 1)\nprint k + peak(x)\n"), 3U);
+}
+
+TEST(Lines, WhatIsSetOnEveryWayIsNotSetAgain) {
+  EXPECT_EQ(lines("input x\nc = x * 2\nif yaw > 3 then print c, c\nc = x * 2\nprint c, c\n"),
+            "1 input X\n2 C = X * 2\n3 if yaw > 3 then print C, C\n4 print C, C\n");
+  EXPECT_EQ(lines("input x\nc = x * 2\nif yaw > 3 then c += 1\nLEDC c\nc = x * 2\nprint c, c\n"),
+            "1 input X\n2 C = X * 2\n3 if yaw > 3 then C = C + 1\n4 LEDC C\n5 C = X * 2\n"
+            "6 print C, C\n");
+}
+
+TEST(Lines, ACallThatSensesIsMadeAgain) {
+  EXPECT_EQ(
+      count_of(lines("function far(n)\n  local s\n  while s * s < n\n    s += abs(yaw) % 7 + 1\n"
+                     "  end while\n  return s\nend function\ninput x\nprint far(x)\n"
+                     "print far(x)\nprint far(x)\n"),
+               "gosub"),
+      3U);
+}
+
 TEST(Lines, AWhileIsTestedAtItsEnd) {
   EXPECT_EQ(lines("while accelone > 300\nend while\n"), "1 if accelone > 300 then goto 1\n");
   EXPECT_EQ(lines("while speed > 3\n  delay 50\nend while\n"),
@@ -162,8 +232,8 @@ TEST(Lines, CopiesThatNeverDifferAreOneVariable) {
   EXPECT_EQ(lines("function throws()\n  local n\n  repeat\n    n += 1\n"
                   "    if dshake then return 0\n  until rnd(6) = 6\n  return n\nend function\n"
                   "loop\n  print throws()\nend loop\n"),
-            "1 A = 0\n2 A = A + 1\n3 if dshake = 0 then goto 6\n4 A = 0\n5 goto 7\n6 if rnd 6 ! 6 "
-            "then goto 2\n7 print A\n8 goto 1\n");
+            "1 N = 0\n2 N = N + 1\n3 if dshake = 0 then goto 6\n4 N = 0\n5 goto 7\n6 if rnd 6 ! 6 "
+            "then goto 2\n7 print N\n8 goto 1\n");
 }
 
 TEST(Lines, ATestThatEachWayDecidesIsGone) {

@@ -462,7 +462,7 @@ private:
   }
 
   void habit(int depth) {
-    switch (upto(8)) {
+    switch (upto(10)) {
     case 0: return exchange(depth);
     case 1: return count_by_hand(depth);
     case 2: return chain(depth);
@@ -470,6 +470,8 @@ private:
     case 4: return flag(depth);
     case 5: return ask(depth);
     case 6: return states(depth);
+    case 7: return wait_for(depth);
+    case 8: return ask_again(depth);
     default: return order(depth);
     }
   }
@@ -606,6 +608,47 @@ private:
       line(depth, "elseif " + test() + " then");
       line(depth + 1, simple());
     }
+    line(depth, "end if");
+  }
+
+  /// The same call twice.
+  void ask_again(int depth) {
+    const int callee = subs_ + 1 + upto(std::max(functions_, 1));
+    if (functions_ == 0 || callee <= routine_)
+      return wait_for(depth);
+    const auto call = name_of(callee) + arguments(callee, 2);
+    line(depth, variable() + " = " + call);
+    if (chance(0.5))
+      line(depth, simple());
+    if (chance(0.3))
+      line(depth, "if " + condition(1) + " then " + simple());
+    line(depth, "print " + call + (chance(0.3) ? " - " + call : ""));
+  }
+
+  /// Something may come, up to a time, and is told from nothing.
+  void wait_for(int depth) {
+    const auto found = "q" + std::to_string(loops_) + "_" + std::to_string(routine_);
+    const auto down = chance(0.3);
+    line(depth, found + " = 0");
+    line(depth,
+         "for " + counter() + " = " +
+             (down ? std::to_string(upto(6)) + " to 1 step -" + std::to_string(1 + upto(2))
+                   : "1 to " + (chance(0.7) ? std::to_string(1 + upto(6)) : variable() + " % 5")));
+    ++loops_;
+    if (chance(0.6))
+      line(depth + 1, simple());
+    line(depth + 1, "if " + condition(0) + " then");
+    line(depth + 2, found + " = 1");
+    line(depth + 2, "exit");
+    line(depth + 1, "end if");
+    if (chance(0.5))
+      line(depth + 1, simple());
+    line(depth, "next");
+    --loops_;
+    line(depth, "if " + found + " = 1 then");
+    block(depth + 1, 1 + upto(2));
+    line(depth, "else");
+    line(depth + 1, simple());
     line(depth, "end if");
   }
 

@@ -1,0 +1,289 @@
+#include "structured/optimise/repeated.h"
+
+#include "structured/analyse/ranges.h"
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+namespace orb::structured {
+namespace {
+
+using compiler::Range;
+
+/// Finds lines that would do what has been done: calls and assignments. Each sub, and each way to
+/// set a variable, has a number, subs first.
+class RepeatFinder {
+public:
+  explicit RepeatFinder(Code& code)
+      : code_(code), ranges_(code), flow_(ranges_.flow()), liveness_(read_liveness(code, flow_)),
+        repeatable_(code.routines.size(), true), deed_of_(code.lines.size(), none),
+        stored_(code.routines.size()), stores_(code.lines.size()) {}
+
+  /// Whether a routine that only computes is called more than once.
+  bool any() {
+    number_deeds();
+    find_repeatable();
+    std::vector<bool> called(repeatable_.size(), false);
+    return std::any_of(code_.lines.begin(), code_.lines.end(), [&](const CodeLine& line) {
+      const auto callee = callee_of(line);
+      const bool again = callee != none && repeatable_[callee] && called[callee];
+      if (callee != none)
+        called[callee] = true;
+      return again;
+    });
+  }
+
+  bool run() {
+    number_deeds();
+    find_repeatable();
+    if (!ranges_.follow())
+      return false;
+    find_elements();
+    follow();
+    return rewrite();
+  }
+
+private:
+  /// The elements that something reads or sets: a range of the index, or nothing.
+  struct Elements {
+    std::optional<Range> index;
+
+    void add(const Elements& other) {
+      if (other.index)
+        index = index ? compiler::join(*index, *other.index) : *other.index;
+    }
+    bool meets(const Elements& other) const {
+      return index && other.index && !index->misses(other.index->lo, other.index->hi);
+    }
+  };
+
+  /// Whether a line gives the same again where what it reads is the same, and is not noticed.
+  bool repeats(const CodeLine& line) const {
+    constexpr std::uint8_t moving = effect::clears | effect::senses;
+    const auto callee = callee_of(line);
+    return line.kind != LineKind::SetElement && line.kind != LineKind::SetSystem &&
+           line.kind != LineKind::Print && line.kind != LineKind::Do &&
+           (effects_of(code_, line) & moving) == 0 && (callee == none || repeatable_[callee]);
+  }
+
+  /// Whether a line sets a variable to what it would be set to again.
+  bool sets_again(const CodeLine& line) const {
+    if (line.kind != LineKind::Let || line.guard || !repeats(line))
+      return false;
+    bool itself = false;
+    each_read(code_, line.term, [&](std::uint32_t v) { itself = itself || v == line.variable; });
+    return !itself;
+  }
+
+  /// What terms that are the same have in common.
+  std::pair<int, int> key_of(std::uint32_t term) const {
+    return {code_.terms[term].what, code_.terms[term].size};
+  }
+
+  void number_deeds() {
+    deeds_ = static_cast<std::uint32_t>(code_.routines.size());
+    std::vector<std::vector<std::uint32_t>> sets(code_.variables.size()); // lines
+    for (std::uint32_t i = 0; i < code_.lines.size(); ++i) {
+      const auto& line = code_.lines[i];
+      if (deed_of_[i] = callee_of(line); !sets_again(line))
+        continue;
+      auto& others = sets[line.variable];
+      const auto same_one = std::find_if(others.begin(), others.end(), [&](std::uint32_t other) {
+        return same(code_, code_.lines[other].term, line.term);
+      });
+      if (same_one != others.end()) {
+        deed_of_[i] = deed_of_[*same_one];
+        continue;
+      }
+      deed_of_[i] = deeds_++;
+      others.push_back(i);
+      alike_[key_of(line.term)].push_back(i);
+    }
+    read_.assign(deeds_, {});
+    spoilt_by_ = VariableSets(code_.variables.size(), deeds_);
+    for (std::uint32_t i = 0; i < code_.lines.size(); ++i)
+      if (const auto& line = code_.lines[i]; line.kind == LineKind::Let && deed_of_[i] != none) {
+        insert(spoilt_by_[line.variable], deed_of_[i]);
+        each_read(code_, line.term, [&](std::uint32_t v) { insert(spoilt_by_[v], deed_of_[i]); });
+      }
+  }
+
+  /// Routines that only compute, and that do not change what they compute from.
+  void find_repeatable() {
+    repeatable_[0] = false;
+    for (std::size_t r = 1; r < repeatable_.size(); ++r) {
+      const auto entry = flow_.entries[r];
+      repeatable_[r] = entry != none;
+      if (entry == none)
+        continue;
+      each_member(flow_.touched[r], [&](std::uint32_t v) {
+        const bool is_read = contains(liveness_.in[entry], v);
+        const bool is_set = contains(flow_.written[r], v);
+        if (is_read && is_set)
+          repeatable_[r] = false;
+        if (is_read || (is_set && contains(liveness_.at_return[r], v)))
+          insert(spoilt_by_[v], static_cast<std::uint32_t>(r));
+      });
+    }
+    for (bool changed = true; changed;) {
+      changed = false;
+      for (const auto& line : code_.lines)
+        if (repeatable_[line.routine] && !repeats(line)) {
+          repeatable_[line.routine] = false;
+          changed = true;
+        }
+    }
+  }
+
+  void find_elements() {
+    ranges_.each_state([&](std::uint32_t i, const State& state) {
+      const auto& line = code_.lines[i];
+      const Elements here{state[index_variable]};
+      if (sets_element(code_, line))
+        stores_[i] = here;
+      stored_[line.routine].add(stores_[i]);
+      if ((effects_of(code_, line) & effect::elements) == 0)
+        return;
+      read_[line.routine].add(here);
+      if (deed_of_[i] != none)
+        read_[deed_of_[i]].add(here);
+    });
+    for (std::size_t round = 0; round < code_.routines.size(); ++round)
+      for (const auto& line : code_.lines)
+        if (const auto callee = callee_of(line); callee != none) {
+          read_[line.routine].add(read_[callee]);
+          stored_[line.routine].add(stored_[callee]);
+        }
+    for (std::uint32_t deed = 0; deed < deeds_; ++deed)
+      if (read_[deed].index)
+        readers_.push_back(deed);
+  }
+
+  // ---- what must be done again
+
+  void spoil(std::span<std::uint64_t> stale, const Elements& set) const {
+    if (!set.index)
+      return;
+    for (const auto deed : readers_)
+      if (set.meets(read_[deed]))
+        insert(stale, deed);
+  }
+
+  /// Goes over a line: `stale` is what has to be done for what it gives.
+  void step(std::uint32_t i, std::span<std::uint64_t> stale) const {
+    const auto& line = code_.lines[i];
+    const auto deed = deed_of_[i];
+    const auto callee = callee_of(line);
+    if (deed != none && !contains(stale, deed))
+      return;
+    each_write(code_, line, [&](std::uint32_t v) { unite(stale, spoilt_by_[v]); });
+    spoil(stale, stores_[i]);
+    if (callee != none) {
+      each_member(flow_.written[callee], [&](std::uint32_t v) { unite(stale, spoilt_by_[v]); });
+      spoil(stale, stored_[callee]);
+      for (std::size_t w = 0; w < stale.size(); ++w)
+        stale[w] &= returned_[callee][w];
+    }
+    if (deed != none && (callee == none || repeatable_[callee]))
+      remove(stale, deed);
+  }
+
+  void follow() {
+    begins_ = VariableSets(flow_.blocks.size(), deeds_);
+    returned_ = VariableSets(code_.routines.size(), deeds_);
+    for (std::uint32_t deed = 0; deed < deeds_; ++deed)
+      insert(begins_[0], deed);
+    for (bool changed = true; changed;) {
+      changed = false;
+      for (std::uint32_t b = 0; b < flow_.blocks.size(); ++b)
+        changed = follow(b) || changed;
+    }
+  }
+
+  bool follow(std::uint32_t b) {
+    const auto& block = flow_.blocks[b];
+    bool changed = false;
+    walk(b, [&](std::uint32_t i) {
+      if (const auto callee = callee_of(code_.lines[i]);
+          callee != none && flow_.entries[callee] != none)
+        changed = unite(begins_[flow_.entries[callee]], stale_) || changed;
+    });
+    for (const auto next : flow_.successors_of(block))
+      changed = unite(begins_[next], stale_) || changed;
+    const auto& last = code_.lines[block.end - 1];
+    if (last.kind == LineKind::Return)
+      changed = unite(returned_[last.routine], stale_) || changed;
+    return changed;
+  }
+
+  /// Calls `visit` with each line of a block; before it, `stale_` are stale.
+  template <typename Visit>
+  void walk(std::uint32_t b, Visit visit) {
+    const auto begin = begins_[b];
+    stale_.assign(begin.begin(), begin.end());
+    for (auto i = flow_.blocks[b].begin; i < flow_.blocks[b].end; ++i) {
+      visit(i);
+      step(i, stale_);
+    }
+  }
+
+  /// Drops what need not be done again, and reads what another variable has been set to.
+  bool rewrite() {
+    std::vector<std::uint32_t> dropped; // lines
+    bool any = false;
+    for (std::uint32_t b = 0; b < flow_.blocks.size(); ++b)
+      if (ranges_.reaches(b))
+        walk(b, [&](std::uint32_t i) {
+          auto& line = code_.lines[i];
+          if (deed_of_[i] != none && !contains(stale_, deed_of_[i]))
+            dropped.push_back(i);
+          else if (line.kind == LineKind::Let && deed_of_[i] != none)
+            any = read_other(line) || any;
+        });
+    for (const auto i : dropped)
+      code_.lines[i].kind = LineKind::Nothing;
+    return any || !dropped.empty();
+  }
+
+  bool read_other(CodeLine& line) {
+    if (code_.terms[line.term].size == 1)
+      return false;
+    for (const auto i : alike_[key_of(line.term)])
+      if (const auto& other = code_.lines[i];
+          !contains(stale_, deed_of_[i]) && same(code_, other.term, line.term)) {
+        line.term = code_.read(other.variable);
+        return true;
+      }
+    return false;
+  }
+
+  Code& code_;
+  Ranges ranges_;
+  const Flow& flow_;
+  Liveness liveness_;
+  std::vector<bool> repeatable_;       ///< of each routine
+  std::vector<std::uint32_t> deed_of_; ///< of each line: its number, or none
+  std::uint32_t deeds_ = 0;
+  std::vector<Elements> read_;         ///< of each of them; of routines with all that they call
+  std::vector<std::uint32_t> readers_; ///< those that read elements
+  std::vector<Elements> stored_;       ///< of each routine, with all that it calls
+  std::vector<Elements> stores_;       ///< of each line itself
+  std::map<std::pair<int, int>, std::vector<std::uint32_t>> alike_; ///< lines that set variables
+  VariableSets spoilt_by_; ///< of each variable: what must be done again when it is set
+  VariableSets begins_;    ///< of each block: what is stale at its begin
+  VariableSets returned_;  ///< of each routine: what is where it returns
+  std::vector<std::uint64_t> stale_;
+};
+
+} // namespace
+
+bool calls_repeat(Code& code) {
+  return RepeatFinder(code).any();
+}
+
+bool drop_repeated(Code& code) {
+  return RepeatFinder(code).run();
+}
+
+} // namespace orb::structured
