@@ -20,6 +20,7 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <utility>
 
 namespace orb::structured {
 namespace {
@@ -141,8 +142,10 @@ public:
   std::string before(const CodeLine& line) override {
     std::string text;
     const auto& program = compiled_.program;
-    if (line.routine != routine_) {
-      routine_ = line.routine;
+    const auto before = std::exchange(routine_, line.routine);
+    if (before != routine_ && routine_ == 0) {
+      text += "' main program\n"; // its last lines stand behind the subs
+    } else if (before != routine_) {
       const auto& symbol = compiled_.names.symbols[compiled_.names.routines[routine_].symbol];
       text += fmt::format("' {} {}\n", symbol.kind == SymbolKind::Sub ? "sub" : "function",
                           program.name(symbol.name));

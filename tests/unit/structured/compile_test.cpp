@@ -390,6 +390,13 @@ TEST(Lines, NegativeNumbersAreDifferences) {
   EXPECT_EQ(lines("print -2147483648\n"), "1 print 0-2147483647-1\n");
 }
 
+TEST(Readable, TheMainProgramCanEndBehindTheSubs) {
+  const auto text = "array s[8]\nsub push(v)\n  top += 1\n  s[top] = v\n  print top, v\n"
+                    "  delay 50\nend sub\nwhile top < 6\n  input x\n  if x = 0 then end\n"
+                    "  push(x)\n  push(-x)\nend while\nRGB red\nprint s[1]\n";
+  EXPECT_NE(readable(compiled(text)).find("' sub push"), std::string::npos);
+}
+
 // ---- limits
 
 TEST(Limits, DeepParenthesesGetTemporaries) {
