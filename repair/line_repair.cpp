@@ -150,7 +150,7 @@ std::vector<Accepted> LineRepair::find(const Diagnostic& finding) {
       by_changes(surely);
   }
   if (!best_ || !best_->settles())
-    habits(start, {deepest, most_states});
+    habits(start, {deepest, judge_.language == Language::Test ? few_states : most_states});
   if (!best_ || !best_->quiet)
     by_fix(finding);
   if (!best_)
