@@ -34,6 +34,7 @@ public:
     });
   }
 
+  /// Drops what need not be done again; true where there was any.
   bool run() {
     number_deeds();
     find_repeatable();
