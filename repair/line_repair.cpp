@@ -15,7 +15,7 @@
 namespace orb::repair {
 namespace {
 
-constexpr std::size_t most_states = 90; // of one line, by habits
+constexpr std::size_t most_states = 90;  // of one line, by habits
 constexpr std::size_t few_states = 40;   // of one line, by habits that take several
 constexpr int most_candidates = 1000;    // of one line, by search
 constexpr int deepest = 6;               // habits in one line
@@ -553,7 +553,7 @@ void LineRepair::by_changes(int most) {
       return;
     // a misspelt habit
     best_.reset();
-    habits(one.text, {3, seen_.size() + 14});
+    habits(one.text, {3, seen_.size() + 8});
     if (best_)
       good.emplace_back(one, *best_);
     best_.reset();
