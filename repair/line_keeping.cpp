@@ -1,9 +1,9 @@
 #include "repair/line_repair.h"
 
 #include "base/text/text.h"
+#include "repair/arrange.h"
 #include "repair/colours.h"
 #include "repair/fill.h"
-#include "repair/arrange.h"
 
 #include <algorithm>
 #include <string>

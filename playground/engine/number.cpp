@@ -1,21 +1,29 @@
-// How numbers with decimals are read on the page: JavaScript reads them as C does, and is there already. The one of C's
-// library weighs 5 KB more on the way to a visitor, most of it for numbers of 128 bits that nobody asks for.
+// How numbers with decimals are read on the page: JavaScript reads them as C does, and is there
+// already. The one of C's library weighs 5 KB more on the way to a visitor, most of it for numbers
+// of 128 bits that nobody asks for.
 
 #include <emscripten.h>
 
-// The value of the decimal number at `text`, whose length is written to `length`: 0 where there is none.
+// clang-format off: this is JavaScript
+// The value of the decimal number at `text`, whose length is written to `length`: 0 where there is
+// none.
 EM_JS(double, read_number, (const char* text, int* length), {
   let end = text;
-  while (HEAPU8[end]) ++end;
-  const [digits] = new RegExp('^([-+]?([0-9]+[.]?[0-9]*|[.][0-9]+)(e[-+]?[0-9]+)?)?', 'i').exec(String.fromCharCode(...HEAPU8.subarray(text, end)));
+  while (HEAPU8[end])
+    ++end;
+  const[digits] = new RegExp('^([-+]?([0-9]+[.]?[0-9]*|[.][0-9]+)(e[-+]?[0-9]+)?)?', 'i')
+                      .exec(String.fromCharCode(... HEAPU8.subarray(text, end)));
   HEAP32[length >> 2] = digits.length;
   return Number(digits);
 })
+// clang-format on
 
-/// Stands in for C's strtod (the linker's --wrap): `number` at the beginning of `text`, where it ends in `end`.
+/// Stands in for C's strtod (the linker's --wrap): `number` at the beginning of `text`, where it
+/// ends in `end`.
 extern "C" double __wrap_strtod(const char* text, char** end) {
   int length = 0;
   const double number = read_number(text, &length);
-  if (end != nullptr) *end = const_cast<char*>(text) + length;
+  if (end != nullptr)
+    *end = const_cast<char*>(text) + length;
   return number;
 }
