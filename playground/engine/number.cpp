@@ -4,15 +4,14 @@
 
 #include <emscripten.h>
 
-// clang-format off: this is JavaScript
 // The value of the decimal number at `text`, whose length is written to `length`: 0 where there is
-// none.
+// none. What follows is JavaScript.
+// clang-format off
 EM_JS(double, read_number, (const char* text, int* length), {
   let end = text;
-  while (HEAPU8[end])
-    ++end;
-  const[digits] = new RegExp('^([-+]?([0-9]+[.]?[0-9]*|[.][0-9]+)(e[-+]?[0-9]+)?)?', 'i')
-                      .exec(String.fromCharCode(... HEAPU8.subarray(text, end)));
+  while (HEAPU8[end]) ++end;
+  const digits = new RegExp('^([-+]?([0-9]+[.]?[0-9]*|[.][0-9]+)(e[-+]?[0-9]+)?)?', 'i')
+    .exec(String.fromCharCode(...HEAPU8.subarray(text, end)))[0];
   HEAP32[length >> 2] = digits.length;
   return Number(digits);
 })
