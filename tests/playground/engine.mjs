@@ -53,6 +53,14 @@ const refusal_of = call => {
   }
 };
 
+// ---- decimals, which JavaScript reads here ----
+for (const number of ["7.25", "0.1", ".5", "5.", "1e3", "1e400", "1e-400", "0e9", "-0.125", "0.30000000000000004", `0.${"3".repeat(200_000)}`, "1".repeat(200_000), "1.2.3", "e5", "x"]) {
+  const files = { "a.test": `at ${number}s push 0 100\ntest "t"\n  expect near 0,${number} by ${number}cm\n`, "a.orb": `delay ${number}s\n`, "a.bas": `10 delay ${number}\n` };
+  const names = Object.keys(files);
+  const findings = JSON.parse((await orb(["check", "--format", "json", "--max-errors", "0", ...names], files)).out);
+  same("decimals", `${number.length} digits, ${number.slice(0, 20)}`, engine.call("check", { files, names }), findings);
+}
+
 // ---- programs ----
 const { groups } = JSON.parse(readFileSync(join(folder, "examples.json"), "utf8"));
 const items = groups.flatMap(group => group.items);
