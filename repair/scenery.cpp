@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <iterator>
-#include <set>
 
 namespace orb::repair {
 namespace {
@@ -70,9 +69,10 @@ Scenery::Scenery(const Source& source, Language language) : source_(source), lan
     in_function_.push_back(std::find(open_.begin(), open_.end(), "end function") != open_.end());
     loops_.push_back(counting_.empty() ? "" : counting_.back());
     const auto line = source.line(n);
+    const auto tokens = split(line.substr(0, longest_line), language).tokens;
+    note_jumps(n, tokens);
     if (line.size() > longest_line)
       continue;
-    const auto tokens = split(line, language).tokens;
     if (!tokens.empty() && (language == Language::Structured || language == Language::Macro))
       open_or_close(tokens);
     if (tokens.size() > 1 && equal_words(tokens[0].text, "for"))
@@ -199,45 +199,41 @@ std::string Scenery::number_below(std::uint32_t line) const {
   return {};
 }
 
-std::vector<Span> Scenery::jumps_to(std::string_view number) const {
-  std::vector<Span> jumps;
-  for (std::uint32_t n = 1; n <= source_.line_count(); ++n) {
-    bool target = false; // a number here is a line
-    for (const auto& token : split(source_.line(n).substr(0, longest_line), language_).tokens) {
-      target =
-          token.is("goto") || token.is("gosub") || (target && (token.is_number() || token.is(",")));
-      const auto begin = source_.line_start(n) + token.at;
-      if (target && token.is(number))
-        jumps.push_back({begin, begin + static_cast<std::uint32_t>(token.text.size())});
-    }
+void Scenery::note_jumps(std::uint32_t line, const Tokens& tokens) {
+  bool jumps = false; // a number here is a line
+  bool calls = false;
+  for (const auto& token : tokens) {
+    const bool begins = token.is("goto") || token.is("gosub");
+    jumps = begins || (jumps && (token.is_number() || token.is(",")));
+    calls = begins ? token.is("gosub") : calls;
+    if (jumps && token.is_number())
+      jumps_.push_back({token.text, source_.line_start(line) + token.at, calls});
   }
-  return jumps;
 }
 
-/// Whether a subroutine begins above a line, without a way out before it, and another one or
-/// nothing stands below.
+std::vector<Span> Scenery::jumps_to(std::string_view number) const {
+  std::vector<Span> found;
+  for (const auto& jump : jumps_)
+    if (jump.to == number)
+      found.push_back({jump.begin, jump.begin + static_cast<std::uint32_t>(jump.to.size())});
+  return found;
+}
+
 bool Scenery::ends_sub(std::uint32_t line) const {
-  std::set<std::string> subs;
-  for (std::uint32_t n = 1; n <= source_.line_count(); ++n) {
-    const auto tokens = split(source_.line(n).substr(0, longest_line), language_).tokens;
-    bool target = false; // a number here is a line
-    for (const auto& token : tokens) {
-      target = token.is("gosub") || (target && (token.is_number() || token.is(",")));
-      if (target && token.is_number())
-        subs.insert(token.text);
-    }
-  }
+  const auto is_called = [&](std::string_view number) {
+    return std::any_of(jumps_.begin(), jumps_.end(),
+                       [&](const Jump& jump) { return jump.calls && jump.to == number; });
+  };
   const auto below = number_below(line);
-  if (subs.empty() || (!below.empty() && !subs.contains(below)))
+  if (!below.empty() && !is_called(below))
     return false;
-  for (auto n = line; n > 0; --n) {
-    if (subs.contains(number(n)))
-      return true;
-    const auto above = split(source_.line(std::max(n, 2U) - 1).substr(0, longest_line), language_);
-    if (!above.tokens.empty() && holds("return end goto", above.tokens[0].text))
+  for (auto n = line; !is_called(number(n)); --n) {
+    const auto above =
+        n == 1 ? Tokens() : split(source_.line(n - 1).substr(0, longest_line), language_).tokens;
+    if (n == 1 || (!above.empty() && holds("return end goto", above[0].text)))
       return false;
   }
-  return false;
+  return true;
 }
 
 Surroundings Scenery::around(std::uint32_t line, const SplitLine& parts) const {

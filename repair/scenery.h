@@ -80,7 +80,17 @@ public:
   std::vector<std::string> free_letters() const;
 
 private:
+  struct Jump {
+    std::string to;
+    std::uint32_t begin = 0; ///< where the number stands
+    bool calls = false;      ///< `gosub`
+  };
+  /// Keeps where a line of orbBasic leads.
+  void note_jumps(std::uint32_t line, const Tokens& tokens);
+  /// Whether a subroutine begins above a line, without a way out before it, and another one or
+  /// nothing stands below.
   bool ends_sub(std::uint32_t line) const;
+
   /// Words that other lines have: those of one letter, or of several.
   std::vector<std::string_view> others(const Tokens& line, bool letters) const;
 
@@ -113,6 +123,7 @@ private:
   std::vector<std::string> loops_;    ///< of each line: that of the innermost loop that it is in
   std::vector<Roll> rolls_;           ///< from the top
   std::vector<std::string> labels_;   ///< of a structured program
+  std::vector<Jump> jumps_;           ///< of orbBasic
   std::vector<Sub> subs_;             ///< and its subs and functions
   std::set<std::string> arrays_;      ///< in lower case
   std::map<std::string, std::size_t> words_;
