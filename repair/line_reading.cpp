@@ -38,7 +38,6 @@ void LineRepair::canonical() {
   read_shifted();
   read_missed();
   drop_types();
-  robots_variables();
   read_thousands();
   read_hexadecimal();
   plain_signs();
@@ -55,7 +54,8 @@ void LineRepair::canonical() {
   count_percents();
   drop_sigils();
   for (std::size_t i = 3; i < tokens.size(); ++i) { // `if open = "true"`
-    if (!tokens[i].is_text() || !tokens[i - 1].is_relation())
+    const bool said = tokens[i].is_text() || judge_.language == Language::Test;
+    if (!said || !tokens[i - 1].is_relation())
       continue;
     const bool bare = judge_.language == Language::Structured || judge_.language == Language::Test;
     if (equal_words(tokens[i].text, "true") && bare && tokens[i - 1].is("=")) {
@@ -450,9 +450,6 @@ void LineRepair::drop_objects() {
   auto& tokens = parts_.tokens;
   if (tokens.empty() || tokens[0].is("program") || tokens[0].is("with") || tokens[0].is("course"))
     return;
-  for (std::size_t i = 2; i < tokens.size(); ++i) // `resting == True`
-    if (tokens[i].is_word() && equal_words(tokens[i].text, "true") && tokens[i - 1].is("="))
-      take_out(tokens, --i, 2);
   for (std::size_t i = 0; i + 2 < tokens.size(); ++i) // `garage.inside`
     if (tokens[i].is_word() && tokens[i + 1].is(".") && !tokens[i + 1].gap &&
         tokens[i + 2].is("inside") && !holds("robot ball sphero bot program", tokens[i].text)) {

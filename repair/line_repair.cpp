@@ -85,7 +85,7 @@ std::vector<Accepted> LineRepair::find(const Diagnostic& finding) {
   if (judge_.language == Language::Macro && !tokens.empty() && tokens[0].is_number())
     name_command();
   if (best_)
-    return other_ ? std::vector{*best_, *other_} : std::vector{*best_};
+    return offers();
   if (tokens.size() > 1 && tokens[0].is_number() && tokens[1].is_number())
     return {}; // of what?
   if (judge_.language == Language::Macro && tokens.size() == 1 && !around_.closer.empty() &&
@@ -109,14 +109,14 @@ std::vector<Accepted> LineRepair::find(const Diagnostic& finding) {
                           own->find_first_not_of(" \t;", parts_.head.size()) != std::string::npos;
   // The same words in another order say what was meant, whatever else is told of the line.
   if (rephrase(parts_.tokens) || (best_ && begins_alike(best_->text)))
-    return other_ ? std::vector{*best_, *other_} : std::vector{*best_};
+    return offers();
   for (const auto& text : with_one_quote())
     if (!best_)
       attempt(text, {}, true);
     else if (!other_)
       other_ = attempt_line(whole(text), {}, false, false);
   if (best_)
-    return other_ ? std::vector{*best_, *other_} : std::vector{*best_};
+    return offers();
   if (const auto closed = with_bracket(); !closed.empty())
     attempt(closed, {}, true);
   if (tokens.size() == 2 && tokens[1].text == around_.loop && is_foreign(tokens[0].text) &&
@@ -167,6 +167,11 @@ std::vector<Accepted> LineRepair::find(const Diagnostic& finding) {
     by_leaving_out();
   if (best_ && !other_)
     other_ = in_milliseconds();
+  return offers();
+}
+
+/// The best line and, where it is not clear which was meant, the other one.
+std::vector<Accepted> LineRepair::offers() const {
   std::vector<Accepted> all;
   if (best_)
     all.push_back(*best_);

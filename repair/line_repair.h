@@ -90,7 +90,6 @@ private:
   void missed_else();
   void read_missed();
   void drop_types();
-  void robots_variables();
   void read_thousands();
   void drop_small_words();
   void read_zeros();
@@ -135,6 +134,7 @@ private:
   void habits(const std::string& statement, Bounds bounds);
   void own_call(const std::string& statement);
   void name_command();
+  std::vector<Accepted> offers() const;
   void own_words();
   void own_sub();
   void several_lines(const std::string& statement);

@@ -221,24 +221,6 @@ void LineRepair::drop_types() {
   }
 }
 
-/// `temporizadorA = 0` and `controllo = 0`: variables of the robot in another language.
-void LineRepair::robots_variables() {
-  if (judge_.language != Language::Basic)
-    return;
-  for (auto& token : parts_.tokens) {
-    const std::string_view text = token.text;
-    if (!token.is_word() || text.size() < 4)
-      continue;
-    const char last = to_upper(text.back());
-    if (last >= 'A' && last <= 'C' && text.back() == last &&
-        holds("temporizador temporizzatore cronometro cronómetro minuteur minuterie zeitgeber",
-              text.substr(0, text.size() - 1)))
-      token.text = std::string("timer") + last;
-    else if (holds("control controllo contrôle controle strg steuerung", text))
-      token.text = "ctrl";
-  }
-}
-
 /// `for B = 1 to 1.000`: thousands, as half of Europe parts them.
 void LineRepair::read_thousands() {
   constexpr std::string_view thousand = ".000";

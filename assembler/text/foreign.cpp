@@ -5,8 +5,10 @@
 #include "repair/idioms.h"
 
 #include <algorithm>
+#include <array>
 #include <string>
 #include <string_view>
+#include <utility>
 
 namespace orb::assembler {
 namespace {
@@ -58,6 +60,14 @@ void plain_call(Tokens& line) {
     line[0].text = spec::info(spec::MacroCommand::Delay).mnemonic;
 }
 
+/// What parts of mnemonics are called elsewhere.
+constexpr auto parts_called = std::to_array<std::pair<std::string_view, std::string_view>>({
+    {"set", "imposta imposte fija fijar pon poner regler setze mets ajusta defina definir define"},
+    {"start", "inicio início inizio début debut anfang begin"},
+    {"loop", "repeat bucle boucle ciclo laço schleife"},
+    {"rate", "velocita velocità velocidad velocidade vitesse tempo"},
+});
+
 /// Whether a word can stand for a part of a mnemonic: `warte` for `wait`, `stopp` for `stopped`.
 bool stands_for(const std::string& word, const std::string& part) {
   constexpr std::size_t stem = 3; // letters
@@ -69,13 +79,9 @@ bool stands_for(const std::string& word, const std::string& part) {
          (word.size() >= stem && part.size() >= stem &&
           (word.starts_with(part) || part.starts_with(word))) ||
          (word.size() > long_ && word.substr(0, long_) == part.substr(0, long_)) ||
-         (part == "set" &&
-          holds("imposta imposte fija fijar pon poner regler setze mets ajusta defina "
-                "definir define",
-                word)) ||
-         (part == "start" && holds("inicio início inizio début debut anfang begin", word)) ||
-         (part == "loop" && holds("repeat bucle boucle ciclo laço schleife", word)) ||
-         (part == "rate" && holds("velocita velocità velocidad velocidade vitesse tempo", word)) ||
+         std::any_of(
+             parts_called.begin(), parts_called.end(),
+             [&](const auto& one) { return part == one.first && holds(one.second, word); }) ||
          (part == "rotation" && word.starts_with("rot")) ||
          (part.size() <= little && word.size() <= little + 1 && !is_digit(word[0]));
 }

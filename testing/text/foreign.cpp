@@ -403,4 +403,67 @@ Tokens with_spans(const Tokens& line) {
   return line;
 }
 
+Tokens with_times(Tokens line) {
+  if (line.size() > 5 && holds("on when", line[0].text) && equal_words(line[1].text, "timer")) {
+    std::erase_if(
+        line, [](const Token& token) { return token.is("(") || token.is(")") || token.is("="); });
+    line.erase(line.begin());
+    line[0].text = "at";
+    if (line.size() > 2 && line[1].is_number() && !(line[2].is_word() && !line[2].gap))
+      line.insert(line.begin() + 2, Token{Token::Kind::Word, "s"});
+    line[1].gap = true;
+  }
+  for (std::size_t i = 0; i + 3 < line.size(); ++i)
+    if (line[i].is("(") && line[i + 1].is("ms") && line[i + 2].is(")") && line[i + 3].is_number()) {
+      line[i] = line[i + 3];
+      line[i].gap = true;
+      line[i + 1].gap = false;
+      line.erase(line.begin() + static_cast<std::ptrdiff_t>(i) + 2,
+                 line.begin() + static_cast<std::ptrdiff_t>(i) + 4);
+    }
+  return line;
+}
+
+std::string line_of_file(const Tokens& line) {
+  constexpr auto ends = std::to_array<std::string_view>({".bas", ".orb", ".macro", ".svg"});
+  std::string name;
+  for (std::size_t i = 1; i < line.size(); ++i) {
+    if (line[i].is("=") || line[i].is(";") || line[i].is(":") || line[i].is("<") || line[i].is(">"))
+      continue;
+    if (!name.empty() && line[i].gap)
+      return {}; // more than a name
+    name += line[i].text;
+  }
+  for (const auto end : {";", ">"})
+    if (name.ends_with(end))
+      name.pop_back();
+  const auto ending = std::find_if(ends.begin(), ends.end(),
+                                   [&](std::string_view one) { return name.ends_with(one); });
+  if (ending == ends.end() || !line[0].is_word() ||
+      name.find_first_of(" ()\"") != std::string::npos)
+    return {};
+  const bool course = *ending == ".svg";
+  const bool known =
+      line[0].is("with") || line[0].is("program") || line[0].is("course") || line[0].is("target");
+  const bool runs = holds("run load start execute use open esegui starte ejecuta ejecutar exécute "
+                          "executa lade carica import",
+                          line[0].text);
+  const bool places = holds("backdrop background map stage bühne fondo fond sfondo", line[0].text);
+  if (!known && !(course ? places : runs))
+    return {};
+  return fmt::format("{} {}", known ? line[0].text : course ? "course" : "program", name);
+}
+
+Tokens without_points(Tokens line) {
+  if (line.size() < 4 || !(line[0].is("expect") || line[0].is("never") || line[0].is("wall")) ||
+      !line[1].is("."))
+    return line;
+  std::erase_if(line, [](const Token& token) {
+    return token.is(".") || token.is("(") || token.is(")") || token.is(";");
+  });
+  for (auto& token : line)
+    token.gap = true;
+  return line;
+}
+
 } // namespace orb::testing

@@ -5,6 +5,8 @@
 #include "repair/tokens.h"
 
 #include <optional>
+#include <string>
+#include <string_view>
 #include <vector>
 
 // Lines of other test frameworks, in the words of test files as far as their grammar goes; what the
@@ -38,5 +40,15 @@ repair::Tokens with_units(const repair::Tokens& line);
 
 /// `from 2s to 3s` as `during 2s..3s`.
 repair::Tokens with_spans(const repair::Tokens& line);
+
+/// `ON TIMER(4) push`, `when timer = 4s push` and `at (ms) 500`: a time as test files say it.
+repair::Tokens with_times(repair::Tokens line);
+
+/// `expect.not.moving();`, `wall.y = -30`: words without the points and brackets between them.
+repair::Tokens without_points(repair::Tokens line);
+
+/// What `run police.macro`, `backdrop ../hall.svg` and `course = "hall.svg";` name, as test files
+/// say it: `program police.macro`. Empty where a line names no file.
+std::string line_of_file(const repair::Tokens& line);
 
 } // namespace orb::testing
