@@ -11,18 +11,18 @@ namespace {
 
 using compiler::Range;
 
-/// Finds lines that would do what has been done: calls and assignments. Each sub, and each way to
-/// set a variable, has a number, subs first.
+/// Finds lines that would do what has been done: calls and assignments. Each sub, each way to call
+/// one that changes what it is given, and each way to set a variable has a number, subs first.
 class RepeatFinder {
 public:
   explicit RepeatFinder(Code& code)
       : code_(code), ranges_(code), flow_(ranges_.flow()), liveness_(read_liveness(code, flow_)),
-        repeatable_(code.routines.size(), true), deed_of_(code.lines.size(), none),
-        stored_(code.routines.size()), stores_(code.lines.size()) {}
+        repeatable_(code.routines.size(), true), changed_(code.routines.size()),
+        deed_of_(code.lines.size(), none), stored_(code.routines.size()),
+        stores_(code.lines.size()) {}
 
   /// Whether a routine that only computes is called more than once.
   bool any() {
-    number_deeds();
     find_repeatable();
     std::vector<bool> called(repeatable_.size(), false);
     return std::any_of(code_.lines.begin(), code_.lines.end(), [&](const CodeLine& line) {
@@ -36,8 +36,8 @@ public:
 
   /// Drops what need not be done again; true where there was any.
   bool run() {
-    number_deeds();
     find_repeatable();
+    number_deeds();
     if (!ranges_.follow())
       return false;
     find_elements();
@@ -82,12 +82,35 @@ private:
     return {code_.terms[term].what, code_.terms[term].size};
   }
 
+  /// Routines that only compute, and what each of them changes of what it computes from.
+  void find_repeatable() {
+    repeatable_[0] = false;
+    for (std::size_t r = 1; r < repeatable_.size(); ++r) {
+      const auto entry = flow_.entries[r];
+      repeatable_[r] = entry != none;
+      if (entry != none)
+        each_member(flow_.written[r], [&](std::uint32_t v) {
+          if (contains(liveness_.in[entry], v))
+            changed_[r].push_back(v);
+        });
+    }
+    for (bool changed = true; changed;) {
+      changed = false;
+      for (const auto& line : code_.lines)
+        if (repeatable_[line.routine] && !repeats(line)) {
+          repeatable_[line.routine] = false;
+          changed = true;
+        }
+    }
+  }
+
   void number_deeds() {
     deeds_ = static_cast<std::uint32_t>(code_.routines.size());
+    number_calls();
     std::vector<std::vector<std::uint32_t>> sets(code_.variables.size()); // lines
     for (std::uint32_t i = 0; i < code_.lines.size(); ++i) {
       const auto& line = code_.lines[i];
-      if (deed_of_[i] = callee_of(line); !sets_again(line))
+      if (deed_of_[i] != none || !sets_again(line))
         continue;
       auto& others = sets[line.variable];
       const auto same_one = std::find_if(others.begin(), others.end(), [&](std::uint32_t other) {
@@ -103,38 +126,98 @@ private:
     }
     read_.assign(deeds_, {});
     spoilt_by_ = VariableSets(code_.variables.size(), deeds_);
-    for (std::uint32_t i = 0; i < code_.lines.size(); ++i)
-      if (const auto& line = code_.lines[i]; line.kind == LineKind::Let && deed_of_[i] != none) {
-        insert(spoilt_by_[line.variable], deed_of_[i]);
-        each_read(code_, line.term, [&](std::uint32_t v) { insert(spoilt_by_[v], deed_of_[i]); });
-      }
+    for (std::uint32_t i = 0; i < code_.lines.size(); ++i) {
+      const auto& line = code_.lines[i];
+      const auto deed = deed_of_[i];
+      if (deed == none)
+        continue;
+      each_root(code_, line, [&](std::uint32_t root) {
+        each_read(code_, root, [&](std::uint32_t v) { insert(spoilt_by_[v], deed); });
+      });
+      if (const auto callee = callee_of(line); callee != none)
+        find_spoilers(callee, deed);
+      else if (deed >= first_set_)
+        insert(spoilt_by_[line.variable], deed);
+    }
   }
 
-  /// Routines that only compute, and that do not change what they compute from.
-  void find_repeatable() {
-    repeatable_[0] = false;
-    for (std::size_t r = 1; r < repeatable_.size(); ++r) {
-      const auto entry = flow_.entries[r];
-      repeatable_[r] = entry != none;
-      if (entry == none)
+  /// What a call reads and gives; of what it changes only what it leaves there.
+  void find_spoilers(std::uint32_t callee, std::uint32_t deed) {
+    each_member(flow_.touched[callee], [&](std::uint32_t v) {
+      const bool is_set = contains(flow_.written[callee], v);
+      if (is_set ? contains(liveness_.at_return[callee], v)
+                 : contains(liveness_.in[flow_.entries[callee]], v))
+        insert(spoilt_by_[v], deed);
+    });
+  }
+
+  void number_calls() {
+    std::vector<std::vector<std::uint32_t>> calls(code_.routines.size()); // lines
+    for (std::uint32_t i = 0; i < code_.lines.size(); ++i) {
+      const auto callee = callee_of(code_.lines[i]);
+      if (callee == none || !repeatable_[callee])
         continue;
-      each_member(flow_.touched[r], [&](std::uint32_t v) {
-        const bool is_read = contains(liveness_.in[entry], v);
-        const bool is_set = contains(flow_.written[r], v);
-        if (is_read && is_set)
-          repeatable_[r] = false;
-        if (is_read || (is_set && contains(liveness_.at_return[r], v)))
-          insert(spoilt_by_[v], static_cast<std::uint32_t>(r));
+      if (changed_[callee].empty()) {
+        deed_of_[i] = callee;
+        continue;
+      }
+      const auto giving = lines_that_give(i);
+      if (giving.empty())
+        continue;
+      auto& others = calls[callee];
+      const auto same_one = std::find_if(others.begin(), others.end(), [&](std::uint32_t other) {
+        return give_the_same(giving, lines_that_give(other));
       });
+      deed_of_[i] = same_one == others.end() ? deeds_++ : deed_of_[*same_one];
+      for (const auto n : giving)
+        deed_of_[n] = deed_of_[i];
+      others.push_back(i);
     }
-    for (bool changed = true; changed;) {
-      changed = false;
-      for (const auto& line : code_.lines)
-        if (repeatable_[line.routine] && !repeats(line)) {
-          repeatable_[line.routine] = false;
-          changed = true;
-        }
+    first_set_ = deeds_;
+  }
+
+  /// The lines above a call that give it all that it changes, from what neither they nor it change.
+  std::vector<std::uint32_t> lines_that_give(std::uint32_t call) const {
+    const auto callee = callee_of(code_.lines[call]);
+    const auto written = flow_.written[callee];
+    std::vector<std::uint64_t> set(written.begin(), written.end());
+    auto missing = changed_[callee];
+    std::vector<std::uint32_t> giving;
+    for (auto i = call; !missing.empty() && i-- > 0;) {
+      const auto& line = code_.lines[i];
+      if (line.kind == LineKind::Nothing)
+        continue;
+      const bool again = std::any_of(giving.begin(), giving.end(), [&](std::uint32_t other) {
+        return code_.lines[other].variable == line.variable;
+      });
+      if (line.kind != LineKind::Let || line.guard || !is_still(line.term) || again ||
+          !contains(liveness_.in[flow_.entries[callee]], line.variable))
+        return {};
+      std::erase(missing, line.variable);
+      insert(set, line.variable);
+      giving.push_back(i);
     }
+    bool stays = missing.empty();
+    for (const auto i : giving)
+      each_read(code_, code_.lines[i].term,
+                [&](std::uint32_t v) { stays = stays && !contains(set, v); });
+    return stays ? giving : std::vector<std::uint32_t>{};
+  }
+
+  /// Whether a term depends on variables alone.
+  bool is_still(std::uint32_t term) const {
+    return (code_.terms[term].effects & (effect::clears | effect::senses | effect::elements)) == 0;
+  }
+
+  bool give_the_same(const std::vector<std::uint32_t>& some,
+                     const std::vector<std::uint32_t>& others) const {
+    return std::is_permutation(some.begin(), some.end(), others.begin(), others.end(),
+                               [&](std::uint32_t a, std::uint32_t b) {
+                                 const auto& one = code_.lines[a];
+                                 const auto& other = code_.lines[b];
+                                 return one.variable == other.variable &&
+                                        same(code_, one.term, other.term);
+                               });
   }
 
   void find_elements() {
@@ -156,6 +239,9 @@ private:
           read_[line.routine].add(read_[callee]);
           stored_[line.routine].add(stored_[callee]);
         }
+    for (std::uint32_t i = 0; i < code_.lines.size(); ++i)
+      if (const auto callee = callee_of(code_.lines[i]); callee != none && deed_of_[i] != none)
+        read_[deed_of_[i]].add(read_[callee]);
     for (std::uint32_t deed = 0; deed < deeds_; ++deed)
       if (read_[deed].index)
         readers_.push_back(deed);
@@ -186,7 +272,7 @@ private:
       for (std::size_t w = 0; w < stale.size(); ++w)
         stale[w] &= returned_[callee][w];
     }
-    if (deed != none && (callee == none || repeatable_[callee]))
+    if (deed != none && (callee != none || deed >= first_set_))
       remove(stale, deed);
   }
 
@@ -263,9 +349,11 @@ private:
   Ranges ranges_;
   const Flow& flow_;
   Liveness liveness_;
-  std::vector<bool> repeatable_;       ///< of each routine
-  std::vector<std::uint32_t> deed_of_; ///< of each line: its number, or none
+  std::vector<bool> repeatable_;                    ///< of each routine
+  std::vector<std::vector<std::uint32_t>> changed_; ///< of each: what it reads, and then sets
+  std::vector<std::uint32_t> deed_of_;              ///< of each line: its number, or none
   std::uint32_t deeds_ = 0;
+  std::uint32_t first_set_ = 0;        ///< the first number of a way to set a variable
   std::vector<Elements> read_;         ///< of each of them; of routines with all that they call
   std::vector<std::uint32_t> readers_; ///< those that read elements
   std::vector<Elements> stored_;       ///< of each routine, with all that it calls

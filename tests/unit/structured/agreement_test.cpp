@@ -62,8 +62,7 @@ void run(vm::Machine& machine, vm::NotebookHost& host, const std::string& text) 
 
 using Style = testing::RandomStructured::Style;
 
-void compare(std::uint64_t seed, Style style = Style::Any) {
-  const auto text = testing::RandomStructured(seed, style).write();
+void compare_text(const std::string& text, std::uint64_t seed) {
   NoFiles files;
   compiler::Target target;
   target.ram_bytes = 4096;
@@ -116,6 +115,10 @@ void compare(std::uint64_t seed, Style style = Style::Any) {
   ASSERT_EQ(line_of(line.statement), line_of(plain.statement));
 }
 
+void compare(std::uint64_t seed, Style style = Style::Any) {
+  compare_text(testing::RandomStructured(seed, style).write(), seed);
+}
+
 TEST(Agreement, CompiledProgramsDoWhatTheTextSays) {
   const auto programs = how_many();
   for (std::uint64_t seed = 1; seed <= programs && !::testing::Test::HasFailure(); ++seed)
@@ -126,6 +129,43 @@ TEST(Agreement, CompiledHabitsDoWhatTheTextSays) {
   const auto programs = how_many();
   for (std::uint64_t seed = 1; seed <= programs && !::testing::Test::HasFailure(); ++seed)
     compare(seed, Style::Habits);
+}
+
+/// A call that has been made need not be made again, but where what it reads has changed: by the
+/// lines between, by the call itself, by what gives it something, on one of two ways.
+TEST(Agreement, CallsThatUseUpWhatTheyAreGiven) {
+  const std::string start = "function sum(p, q)\n"
+                            "  local v\n"
+                            "  while p > 0\n"
+                            "    v += p % q + k\n"
+                            "    p /= q\n"
+                            "  end while\n"
+                            "  return v\n"
+                            "end function\n"
+                            "function noted(p)\n"
+                            "  while p % 3 > 0\n"
+                            "    p -= 1\n"
+                            "  end while\n"
+                            "  note = p + 5\n"
+                            "  return p + 1\n"
+                            "end function\n"
+                            "input a, 5ms, 90\n"
+                            "input b, 5ms, 7\n"
+                            "input k, 5ms, 1\n"
+                            "input note, 5ms, 11\n";
+  for (const std::string body : {
+           "print sum(a, b)\nprint sum(a, b)\n",
+           "print sum(a, b)\na += 1\nprint sum(a, b)\n",
+           "print sum(a, b)\nk += 1\nprint sum(a, b)\n",
+           "print sum(a, b)\nif speed > 5 then b += 1\nprint sum(a, b)\n",
+           "print sum(a, b)\nif speed > 5 then print sum(b, 2)\nprint sum(a, b)\n",
+           "print sum(a, b)\nprint sum(b, a)\nprint sum(a, b)\nprint sum(a, b)\n",
+           "p = a\nprint sum(p, b)\nprint sum(p, b), p\n",
+           "repeat 3\nprint sum(a, b)\nprint sum(a, b)\na -= 9\nend repeat\n",
+           "print noted(note)\nprint noted(note), note\n",
+           "print noted(a)\ninput note, 5ms, 4\nprint noted(a), note\n",
+       })
+    compare_text(start + body, 1);
 }
 
 TEST(Agreement, ProgramsThatHaveFoundSomething) {

@@ -66,7 +66,7 @@ private:
     out_ += chance(0.3) ? "\n  local v = " + expression(2) + "\n" : "\n  local v\n";
     loops_ = 0;
     if (function && style_ == Style::Habits && chance(0.6))
-      return answer();
+      return chance(0.3) && parameters > 0 ? use_up() : answer();
     block(2, 1 + upto(3));
     if (function && chance(0.8))
       out_ += "  return " + expression(0) + "\n";
@@ -461,6 +461,21 @@ private:
     out_ += "end function\n";
   }
 
+  /// A function that works on what it is given.
+  void use_up() {
+    line(1, "p = abs(p) % " + std::to_string(2 + upto(300)));
+    if (chance(0.3))
+      block(1, 1);
+    line(1, "while p > 0");
+    line(2, chance(0.7) ? "v += p % " + std::to_string(2 + upto(9)) : simple());
+    if (chance(0.2))
+      line(2, variable() + " += 1");
+    line(2, chance(0.7) ? "p /= " + std::to_string(2 + upto(9)) : "p -= 40");
+    line(1, "end while");
+    line(1, chance(0.7) ? "return v" : "return v + " + variable());
+    out_ += "end function\n";
+  }
+
   void habit(int depth) {
     switch (upto(10)) {
     case 0: return exchange(depth);
@@ -616,7 +631,15 @@ private:
     const int callee = subs_ + 1 + upto(std::max(functions_, 1));
     if (functions_ == 0 || callee <= routine_)
       return wait_for(depth);
-    const auto call = name_of(callee) + arguments(callee, 2);
+    auto call = name_of(callee) + arguments(callee, 2);
+    if (chance(0.5)) {
+      call = name_of(callee) + "(";
+      for (int n = 0; n < parameters_of(callee); ++n)
+        call += (n > 0 ? ", " : "") + variable();
+      call += ")";
+    }
+    if (chance(0.3))
+      line(depth, "input " + variable() + ", 5ms, " + number()); // nobody knows it when compiling
     line(depth, variable() + " = " + call);
     if (chance(0.5))
       line(depth, simple());
