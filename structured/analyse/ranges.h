@@ -66,8 +66,18 @@ private:
     bool yet = false;                   ///< it has come back
   };
 
+  /// What is known of a variable after a line.
+  struct Proof {
+    std::uint32_t variable = none;
+    compiler::Range range;
+  };
+
   void find_tracked();
   void find_landmarks();
+  void find_counters();
+  void find_proofs();
+  void find_proof(std::uint32_t i, std::uint32_t variable, std::int32_t added,
+                  std::span<const std::uint32_t> named);
   void find_data();
 
   void load(std::uint32_t b, State& state) const;
@@ -103,6 +113,8 @@ private:
   std::vector<std::uint32_t> nexts_;   ///< of each loop's label: the block that ends in its `next`
   std::vector<Returned> returns_;
   std::vector<std::int32_t> landmarks_;
+  std::vector<bool> counts_;  ///< of each variable
+  std::vector<Proof> proofs_; ///< of each line
   compiler::Range data_;
   compiler::Range elements_ = compiler::Range::only(0); ///< of all arrays
   std::vector<std::uint32_t> element_readers_;          ///< blocks

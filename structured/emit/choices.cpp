@@ -72,6 +72,8 @@ public:
     fold_branches();
     finish_tests();
     end_at_once();
+    call_last();
+    end_at_once(); // where jumps lead to what was a call
     while (remove_unreached())
       ;
   }
@@ -588,7 +590,29 @@ private:
     }
   }
 
-  /// A jump to a `return` or an `end` is one itself.
+  /// What a sub calls last returns for it.
+  void call_last() {
+    const auto call = [](CodeLine& line) {
+      if (line.kind == LineKind::Gosub)
+        line.kind = LineKind::Goto;
+    };
+    for (std::size_t i = 0; i < code_.lines.size(); ++i) {
+      auto after = i + 1;
+      while (after < code_.lines.size() && (code_.lines[after].kind == LineKind::Label ||
+                                            code_.lines[after].kind == LineKind::Nothing))
+        ++after;
+      if (after == code_.lines.size() || code_.lines[after].kind != LineKind::Return)
+        continue;
+      auto& line = code_.lines[i];
+      call(line);
+      if (line.kind == LineKind::Choice)
+        for (const auto branch : {line.term, line.end})
+          if (branch != none)
+            call(code_.branches[branch]);
+    }
+  }
+
+  /// A jump to a `return`, an `end` or another jump is that itself.
   void end_at_once() {
     tidy(code_);
     const auto at = lines_of_labels(code_);
@@ -601,7 +625,7 @@ private:
       if (target == code_.lines.size())
         continue;
       const auto& last = code_.lines[target];
-      if (last.kind != LineKind::Return && !ends_program(last))
+      if (last.kind != LineKind::Return && last.kind != LineKind::Goto && !ends_program(last))
         continue;
       const auto origin = line.origin;
       line = last;

@@ -65,7 +65,12 @@ private:
     const std::vector<Part> parts(code_.parts.begin() + line.parts_begin,
                                   code_.parts.begin() + line.parts_end);
     begin(line);
+    auto rest = width(line);
     for (auto part : parts) {
+      // A text stays whole where cutting it would not save a piece.
+      if (used_ + width(part) > most_ && rest <= most_)
+        next(line);
+      rest -= width(part);
       while (part.kind == PartKind::Text && used_ + width(part) > most_) {
         auto head = part;
         head.text.end = head.text.begin + most_ - used_;

@@ -59,6 +59,14 @@ private:
     }
   };
 
+  /// A variable that holds what another does.
+  struct Copy {
+    std::vector<std::uint32_t> lines; ///< that set it so
+    std::uint32_t original = none;
+    std::uint32_t of_it = 0; ///< how often it is read as that
+    std::uint32_t reads = 0; ///< how often it is read
+  };
+
   /// Whether a line gives the same again where what it reads is the same, and is not noticed.
   bool repeats(const CodeLine& line) const {
     constexpr std::uint8_t moving = effect::clears | effect::senses;
@@ -126,11 +134,14 @@ private:
     }
     read_.assign(deeds_, {});
     spoilt_by_ = VariableSets(code_.variables.size(), deeds_);
+    copies_.assign(code_.variables.size(), {});
     for (std::uint32_t i = 0; i < code_.lines.size(); ++i) {
       const auto& line = code_.lines[i];
       const auto deed = deed_of_[i];
       if (deed == none)
         continue;
+      if (line.kind == LineKind::Let && deed >= first_set_ && is_copy(line))
+        copies_[line.variable].lines.push_back(i);
       each_root(code_, line, [&](std::uint32_t root) {
         each_read(code_, root, [&](std::uint32_t v) { insert(spoilt_by_[v], deed); });
       });
@@ -139,6 +150,12 @@ private:
       else if (deed >= first_set_)
         insert(spoilt_by_[line.variable], deed);
     }
+  }
+
+  bool is_copy(const CodeLine& line) const {
+    const auto& term = code_.terms[line.term];
+    return term.kind == TermKind::Variable && !code_.variables[line.variable].kept &&
+           line.variable != index_variable && term.left != index_variable;
   }
 
   /// What a call reads and gives; of what it changes only what it leaves there.
@@ -262,7 +279,8 @@ private:
     const auto& line = code_.lines[i];
     const auto deed = deed_of_[i];
     const auto callee = callee_of(line);
-    if (deed != none && !contains(stale, deed))
+    // An index that is set to none because it is wrong stops the program before anything else.
+    if ((deed != none && !contains(stale, deed)) || (line.guard && line.kind == LineKind::Let))
       return;
     each_write(code_, line, [&](std::uint32_t v) { unite(stale, spoilt_by_[v]); });
     spoil(stale, stores_[i]);
@@ -323,6 +341,7 @@ private:
       if (ranges_.reaches(b))
         walk(b, [&](std::uint32_t i) {
           auto& line = code_.lines[i];
+          find_originals(line);
           if (deed_of_[i] != none && !contains(stale_, deed_of_[i]))
             dropped.push_back(i);
           else if (line.kind == LineKind::Let && deed_of_[i] != none)
@@ -330,7 +349,42 @@ private:
         });
     for (const auto i : dropped)
       code_.lines[i].kind = LineKind::Nothing;
-    return any || !dropped.empty();
+    return read_originals() || any || !dropped.empty();
+  }
+
+  /// For what each variable that a line reads is a copy, if that has not changed.
+  void find_originals(const CodeLine& line) {
+    each_root(code_, line, [&](std::uint32_t root) {
+      each_read(code_, root, [&](std::uint32_t v) {
+        auto& copy = copies_[v];
+        const auto still = std::find_if(copy.lines.begin(), copy.lines.end(), [&](std::uint32_t i) {
+          return !contains(stale_, deed_of_[i]);
+        });
+        if (still == copy.lines.end() || line.kind == LineKind::For)
+          return;
+        const auto original = code_.terms[code_.lines[*still].term].left;
+        copy.original = copy.of_it == 0 || copy.original == original ? original : none;
+        ++copy.of_it;
+      });
+    });
+  }
+
+  /// Reads the originals of copies that are nothing else wherever they are read.
+  bool read_originals() {
+    for (const auto& line : code_.lines)
+      each_line_read(code_, line, [&](std::uint32_t v) { ++copies_[v].reads; });
+    bool any = false;
+    const auto original = [&](std::uint32_t term) {
+      const auto& copy = copies_[code_.terms[term].left];
+      if (copy.original == none || copy.reads != copy.of_it || copy.lines.empty())
+        return term;
+      any = true;
+      return code_.read(copy.original);
+    };
+    for (auto& line : code_.lines)
+      each_root(code_, line,
+                [&](std::uint32_t& root) { root = with_variables(code_, root, original); });
+    return any;
   }
 
   bool read_other(CodeLine& line) {
@@ -354,6 +408,7 @@ private:
   std::vector<std::uint32_t> deed_of_;              ///< of each line: its number, or none
   std::uint32_t deeds_ = 0;
   std::uint32_t first_set_ = 0;        ///< the first number of a way to set a variable
+  std::vector<Copy> copies_;           ///< of each variable
   std::vector<Elements> read_;         ///< of each of them; of routines with all that they call
   std::vector<std::uint32_t> readers_; ///< those that read elements
   std::vector<Elements> stored_;       ///< of each routine, with all that it calls
