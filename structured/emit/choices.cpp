@@ -43,19 +43,6 @@ bool in_documented_list(spec::Statement statement) {
   return spec::info(statement).in_then == spec::InThen::Listed;
 }
 
-/// The orders of two values in which a comparison holds, as bits: less, equal, greater.
-unsigned orders_of(Comparison comparison) {
-  switch (comparison) {
-  case Comparison::Less: return 1;
-  case Comparison::Equal: return 2;
-  case Comparison::LessEqual: return 3;
-  case Comparison::Greater: return 4;
-  case Comparison::NotEqual: return 5;
-  case Comparison::GreaterEqual: return 6;
-  }
-  return 0;
-}
-
 class ChoiceWriter {
 public:
   ChoiceWriter(Code& code, const Program& program, const Identity& identity)

@@ -291,6 +291,18 @@ Comparison opposite(Comparison comparison) {
   return comparison;
 }
 
+unsigned orders_of(Comparison comparison) {
+  switch (comparison) {
+  case Comparison::Less: return 1;
+  case Comparison::Equal: return 2;
+  case Comparison::LessEqual: return 3;
+  case Comparison::Greater: return 4;
+  case Comparison::NotEqual: return 5;
+  case Comparison::GreaterEqual: return 6;
+  }
+  return 0;
+}
+
 Comparison mirrored(Comparison comparison) {
   switch (comparison) {
   case Comparison::Equal:

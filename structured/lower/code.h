@@ -217,6 +217,9 @@ bool function_needs_parentheses(const Code& code, std::uint32_t operand);
 Comparison opposite(Comparison comparison);
 Comparison mirrored(Comparison comparison);
 
+/// The orders of two values in which a comparison holds, as bits: less, equal, greater.
+unsigned orders_of(Comparison comparison);
+
 /// The robot has no `<=` and `>=`: which side of such a comparison gets a 1 added or taken away, so
 /// that `<` or `>` says the same. Neither where both could wrap.
 enum class Moved : std::uint8_t { Neither, Left, Right };

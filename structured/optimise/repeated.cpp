@@ -132,8 +132,13 @@ private:
       others.push_back(i);
       alike_[key_of(line.term)].push_back(i);
     }
+    number_orders();
     read_.assign(deeds_, {});
     spoilt_by_ = VariableSets(code_.variables.size(), deeds_);
+    for (const auto& pair : pairs_)
+      for (const auto term : {pair.left, pair.right})
+        each_read(code_, term,
+                  [&](std::uint32_t v) { set_orders(spoilt_by_[v], pair, all_orders); });
     copies_.assign(code_.variables.size(), {});
     for (std::uint32_t i = 0; i < code_.lines.size(); ++i) {
       const auto& line = code_.lines[i];
@@ -150,6 +155,84 @@ private:
       else if (deed >= first_set_)
         insert(spoilt_by_[line.variable], deed);
     }
+  }
+
+  /// Two terms that several lines compare, and in which orders they can be: of each order a number,
+  /// that is stale where they can.
+  struct Pair {
+    std::uint32_t left;
+    std::uint32_t right;
+    std::uint32_t less = none; ///< its number; those of equal and greater follow
+  };
+  struct Test {
+    std::uint32_t pair = none;
+    unsigned holds = 0; ///< in these orders
+  };
+  static constexpr unsigned all_orders = 7;
+
+  void number_orders() {
+    tests_.assign(code_.lines.size(), {});
+    std::map<std::uint64_t, std::vector<std::uint32_t>> alike; // pairs
+    std::vector<std::uint32_t> counts;
+    for (std::uint32_t i = 0; i < code_.lines.size(); ++i) {
+      const auto& line = code_.lines[i];
+      if (line.kind != LineKind::If || line.guard || effects_of(code_, line) != 0 ||
+          code_.conditions[line.condition].glue != Glue::None)
+        continue;
+      const auto& [comparison, left, right, left_range, right_range] =
+          code_.conditions[line.condition].first;
+      auto& some = alike[hash_of(left) + hash_of(right)];
+      const auto is_same = [&](std::uint32_t a, std::uint32_t b) {
+        return [&, a, b](std::uint32_t n) {
+          return same(code_, pairs_[n].left, a) && same(code_, pairs_[n].right, b);
+        };
+      };
+      auto found = std::find_if(some.begin(), some.end(), is_same(left, right));
+      const bool as_it = found != some.end();
+      if (!as_it)
+        found = std::find_if(some.begin(), some.end(), is_same(right, left));
+      const bool turned = found != some.end() && !as_it;
+      const auto pair = found != some.end() ? *found : static_cast<std::uint32_t>(pairs_.size());
+      if (found == some.end()) {
+        some.push_back(pair);
+        pairs_.push_back({left, right});
+        counts.push_back(0);
+      }
+      ++counts[pair];
+      tests_[i] = {pair, orders_of(turned ? mirrored(comparison) : comparison)};
+    }
+    for (std::uint32_t pair = 0; pair < pairs_.size(); ++pair)
+      if (counts[pair] > 1) {
+        pairs_[pair].less = deeds_;
+        deeds_ += 3;
+      }
+  }
+
+  std::uint64_t hash_of(std::uint32_t term) const {
+    const auto& node = code_.terms[term];
+    if (node.kind == TermKind::Number)
+      return static_cast<std::uint32_t>(node.value);
+    return std::uint64_t{node.kind == TermKind::Variable ? node.left : node.what} << 32 | node.size;
+  }
+
+  static void set_orders(std::span<std::uint64_t> stale, const Pair& pair, unsigned orders) {
+    for (std::uint32_t n = 0; n < 3 && pair.less != none; ++n)
+      if ((orders >> n & 1) != 0)
+        insert(stale, pair.less + n);
+  }
+  static void take_orders(std::span<std::uint64_t> stale, const Pair& pair, unsigned orders) {
+    for (std::uint32_t n = 0; n < 3 && pair.less != none; ++n)
+      if ((orders >> n & 1) != 0)
+        remove(stale, pair.less + n);
+  }
+  unsigned orders_at(std::uint32_t i, std::span<const std::uint64_t> stale) const {
+    const auto* pair = tests_[i].pair == none ? nullptr : &pairs_[tests_[i].pair];
+    if (pair == nullptr || pair->less == none)
+      return all_orders;
+    unsigned orders = 0;
+    for (std::uint32_t n = 0; n < 3; ++n)
+      orders |= contains(stale, pair->less + n) ? 1U << n : 0U;
+    return orders;
   }
 
   bool is_copy(const CodeLine& line) const {
@@ -314,11 +397,30 @@ private:
           callee != none && flow_.entries[callee] != none)
         changed = unite(begins_[flow_.entries[callee]], stale_) || changed;
     });
+    const auto& last = code_.lines[block.end - 1];
+    if (tests_[block.end - 1].pair != none)
+      return leave_test(b, block.end - 1) || changed;
     for (const auto next : flow_.successors_of(block))
       changed = unite(begins_[next], stale_) || changed;
-    const auto& last = code_.lines[block.end - 1];
     if (last.kind == LineKind::Return)
       changed = unite(returned_[last.routine], stale_) || changed;
+    return changed;
+  }
+
+  /// Goes on from a test with the orders that lead each way.
+  bool leave_test(std::uint32_t b, std::uint32_t i) {
+    const auto& [pair, holds] = tests_[i];
+    const auto orders = orders_at(i, stale_);
+    bool changed = false;
+    const auto enter = [&](std::uint32_t block, unsigned others) {
+      if (block >= flow_.blocks.size() || (orders & ~others) == 0)
+        return;
+      take_orders(stale_, pairs_[pair], others);
+      changed = unite(begins_[block], stale_) || changed;
+      set_orders(stale_, pairs_[pair], orders & others);
+    };
+    enter(flow_.block_of_label[code_.lines[i].label], all_orders & ~holds);
+    enter(b + 1, holds);
     return changed;
   }
 
@@ -341,6 +443,8 @@ private:
       if (ranges_.reaches(b))
         walk(b, [&](std::uint32_t i) {
           auto& line = code_.lines[i];
+          if (tests_[i].pair != none)
+            any = decide(i) || any;
           find_originals(line);
           if (deed_of_[i] != none && !contains(stale_, deed_of_[i]))
             dropped.push_back(i);
@@ -350,6 +454,17 @@ private:
     for (const auto i : dropped)
       code_.lines[i].kind = LineKind::Nothing;
     return read_originals() || any || !dropped.empty();
+  }
+
+  /// What a test finds, where another has found it before.
+  bool decide(std::uint32_t i) {
+    const auto orders = orders_at(i, stale_);
+    auto& line = code_.lines[i];
+    if ((orders & tests_[i].holds) == 0)
+      line.kind = LineKind::Nothing;
+    else if ((orders & ~tests_[i].holds) == 0)
+      line.kind = LineKind::Goto;
+    return line.kind != LineKind::If;
   }
 
   /// For what each variable that a line reads is a copy, if that has not changed.
@@ -407,7 +522,9 @@ private:
   std::vector<std::vector<std::uint32_t>> changed_; ///< of each: what it reads, and then sets
   std::vector<std::uint32_t> deed_of_;              ///< of each line: its number, or none
   std::uint32_t deeds_ = 0;
-  std::uint32_t first_set_ = 0;        ///< the first number of a way to set a variable
+  std::uint32_t first_set_ = 0; ///< the first number of a way to set a variable
+  std::vector<Pair> pairs_;
+  std::vector<Test> tests_;            ///< of each line
   std::vector<Copy> copies_;           ///< of each variable
   std::vector<Elements> read_;         ///< of each of them; of routines with all that they call
   std::vector<std::uint32_t> readers_; ///< those that read elements

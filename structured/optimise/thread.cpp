@@ -71,10 +71,13 @@ private:
         return look(b, next, nullptr, nullptr); // it goes on through lines that are added
       const auto& relation = code_.conditions[line.condition].first;
       auto copy = leads_on(block_of(line.label)) ? state : State{};
+      known_ = relation;
       if (copy.empty() || ranges_.narrow(relation, relation.comparison, copy))
         look(b, block_of(line.label), &line.label, copy.empty() ? nullptr : &copy);
-      if (ranges_.narrow(relation, opposite(relation.comparison), state))
+      known_.comparison = opposite(known_.comparison);
+      if (ranges_.narrow(relation, known_.comparison, state))
         look(b, next, nullptr, &state);
+      known_ = {};
     } else if (line.kind == LineKind::Goto) {
       look(b, block_of(line.label), &line.label, &state);
     } else if (line.kind == LineKind::Next) {
@@ -140,8 +143,11 @@ private:
       if (!is_pure(relation.left) || !is_pure(relation.right))
         return best;
       auto taken = state;
-      const bool can_hold = ranges_.narrow(relation, relation.comparison, taken);
-      const bool can_fail = ranges_.narrow(relation, opposite(relation.comparison), state);
+      const auto orders = known_orders(relation, set);
+      const bool can_hold = (orders & orders_of(relation.comparison)) != 0 &&
+                            ranges_.narrow(relation, relation.comparison, taken);
+      const bool can_fail = (orders & ~orders_of(relation.comparison)) != 0 &&
+                            ranges_.narrow(relation, opposite(relation.comparison), state);
       const auto target = flow_.blocks[block_of(line.label)].begin;
       if (can_hold && can_fail) {
         auto other = set;
@@ -155,6 +161,26 @@ private:
       }
     }
     return best;
+  }
+
+  /// In which orders two terms can be after the test that the way begins with.
+  unsigned known_orders(const Relation& relation, const std::vector<std::uint32_t>& set) const {
+    constexpr unsigned any = 7;
+    if (known_.left == none ||
+        (code_.terms[known_.left].effects | code_.terms[known_.right].effects) != 0)
+      return any;
+    bool still = true;
+    for (const auto term : {known_.left, known_.right})
+      each_read(code_, term, [&](std::uint32_t v) {
+        still = still && std::find(set.begin(), set.end(), v) == set.end();
+      });
+    if (!still)
+      return any;
+    if (same(code_, known_.left, relation.left) && same(code_, known_.right, relation.right))
+      return orders_of(known_.comparison);
+    if (same(code_, known_.left, relation.right) && same(code_, known_.right, relation.left))
+      return orders_of(mirrored(known_.comparison));
+    return any;
   }
 
   /// The block that an `on` leads to, or none.
@@ -219,6 +245,7 @@ private:
   std::vector<Way> ways_;
   std::vector<std::pair<std::uint32_t, std::uint32_t>> labels_; ///< of blocks: to be added
   std::uint32_t below_ = none; ///< the block below the jump that is looked at
+  Relation known_;             ///< holds at the begin of the way that is looked at
   int steps_ = 0;
   bool changed_ = false;
 };
