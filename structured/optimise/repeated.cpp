@@ -162,7 +162,7 @@ private:
   struct Pair {
     std::uint32_t left;
     std::uint32_t right;
-    std::uint32_t less = none; ///< its number; those of equal and greater follow
+    std::uint32_t less; ///< its number; those of equal and greater follow
   };
   struct Test {
     std::uint32_t pair = none;
@@ -172,40 +172,40 @@ private:
 
   void number_orders() {
     tests_.assign(code_.lines.size(), {});
-    std::map<std::uint64_t, std::vector<std::uint32_t>> alike; // pairs
-    std::vector<std::uint32_t> counts;
+    std::vector<std::pair<std::uint64_t, std::uint32_t>> comparing; // a hash of the terms, a line
     for (std::uint32_t i = 0; i < code_.lines.size(); ++i) {
       const auto& line = code_.lines[i];
-      if (line.kind != LineKind::If || line.guard || effects_of(code_, line) != 0 ||
-          code_.conditions[line.condition].glue != Glue::None)
+      if (line.kind != LineKind::If || line.guard)
         continue;
-      const auto& [comparison, left, right, left_range, right_range] =
-          code_.conditions[line.condition].first;
-      auto& some = alike[hash_of(left) + hash_of(right)];
-      const auto is_same = [&](std::uint32_t a, std::uint32_t b) {
-        return [&, a, b](std::uint32_t n) {
-          return same(code_, pairs_[n].left, a) && same(code_, pairs_[n].right, b);
-        };
-      };
-      auto found = std::find_if(some.begin(), some.end(), is_same(left, right));
-      const bool as_it = found != some.end();
-      if (!as_it)
-        found = std::find_if(some.begin(), some.end(), is_same(right, left));
-      const bool turned = found != some.end() && !as_it;
-      const auto pair = found != some.end() ? *found : static_cast<std::uint32_t>(pairs_.size());
-      if (found == some.end()) {
-        some.push_back(pair);
-        pairs_.push_back({left, right});
-        counts.push_back(0);
-      }
-      ++counts[pair];
-      tests_[i] = {pair, orders_of(turned ? mirrored(comparison) : comparison)};
+      const auto& condition = code_.conditions[line.condition];
+      if (condition.glue == Glue::None && effects_of(code_, line) == 0)
+        comparing.push_back({hash_of(condition.first.left) + hash_of(condition.first.right), i});
     }
-    for (std::uint32_t pair = 0; pair < pairs_.size(); ++pair)
-      if (counts[pair] > 1) {
-        pairs_[pair].less = deeds_;
-        deeds_ += 3;
-      }
+    std::sort(comparing.begin(), comparing.end());
+    for (std::size_t n = 0; n < comparing.size(); ++n)
+      for (auto other = n + 1;
+           other < comparing.size() && comparing[other].first == comparing[n].first; ++other)
+        pair_up(comparing[n].second, comparing[other].second);
+  }
+
+  /// Gives two tests of the same terms the numbers of these.
+  void pair_up(std::uint32_t i, std::uint32_t other) {
+    const auto& one = code_.conditions[code_.lines[i].condition].first;
+    const auto& two = code_.conditions[code_.lines[other].condition].first;
+    const auto are_same = [&](std::uint32_t left, std::uint32_t right) {
+      return same(code_, one.left, left) && same(code_, one.right, right);
+    };
+    const bool as_it = are_same(two.left, two.right);
+    if (tests_[other].pair != none || (!as_it && !are_same(two.right, two.left)))
+      return;
+    if (tests_[i].pair == none) {
+      tests_[i] = {static_cast<std::uint32_t>(pairs_.size()), orders_of(one.comparison)};
+      pairs_.push_back({one.left, one.right, deeds_});
+      deeds_ += 3;
+    }
+    const auto& pair = pairs_[tests_[i].pair];
+    const bool turned = !(same(code_, pair.left, two.left) && same(code_, pair.right, two.right));
+    tests_[other] = {tests_[i].pair, orders_of(turned ? mirrored(two.comparison) : two.comparison)};
   }
 
   std::uint64_t hash_of(std::uint32_t term) const {
@@ -216,22 +216,19 @@ private:
   }
 
   static void set_orders(std::span<std::uint64_t> stale, const Pair& pair, unsigned orders) {
-    for (std::uint32_t n = 0; n < 3 && pair.less != none; ++n)
+    for (std::uint32_t n = 0; n < 3; ++n)
       if ((orders >> n & 1) != 0)
         insert(stale, pair.less + n);
   }
   static void take_orders(std::span<std::uint64_t> stale, const Pair& pair, unsigned orders) {
-    for (std::uint32_t n = 0; n < 3 && pair.less != none; ++n)
+    for (std::uint32_t n = 0; n < 3; ++n)
       if ((orders >> n & 1) != 0)
         remove(stale, pair.less + n);
   }
   unsigned orders_at(std::uint32_t i, std::span<const std::uint64_t> stale) const {
-    const auto* pair = tests_[i].pair == none ? nullptr : &pairs_[tests_[i].pair];
-    if (pair == nullptr || pair->less == none)
-      return all_orders;
     unsigned orders = 0;
     for (std::uint32_t n = 0; n < 3; ++n)
-      orders |= contains(stale, pair->less + n) ? 1U << n : 0U;
+      orders |= contains(stale, pairs_[tests_[i].pair].less + n) ? 1U << n : 0U;
     return orders;
   }
 

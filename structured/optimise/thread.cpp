@@ -207,7 +207,9 @@ private:
     const bool setting = last.kind == LineKind::Let && is_pure(last.term) &&
                          last.variable != index_variable &&
                          !contains(liveness_.in[way.end], last.variable);
-    if (!setting && undecided_[way.to] > 0)
+    const auto& first = code_.lines[flow_.blocks[way.to].begin];
+    const bool jumps = first.kind == LineKind::Goto && block_of(first.label) == way.end;
+    if (!setting && (undecided_[way.to] > 0 || jumps))
       return;
     CodeLine jump;
     jump.kind = LineKind::Goto;

@@ -168,6 +168,28 @@ TEST(Agreement, CallsThatUseUpWhatTheyAreGiven) {
     compare_text(start + body, 1);
 }
 
+/// What a test has found is known to the same test behind it, but where what is compared has
+/// changed between them, on one of two ways or by a call; and with its sides exchanged.
+TEST(Agreement, TestsThatHaveBeenMade) {
+  const std::string start = "input a, 5ms, 7\ninput b, 5ms, 9\n";
+  const std::string end = "sub later\n  a += 2\nend sub\n";
+  for (const std::string body : {
+           "repeat\n n += 1\n if a <> b then\n print n\n delay 1ms\n a += 1\n end if\n"
+           "until a = b or n = 5\nif a = b then print \"is\" else print \"not\"\n",
+           "repeat\n n += 1\n input c, 5ms, 9\n if c <> b then print n\n"
+           "until c = b or n = 5\nif c = b then print \"is\" else print \"not\"\n",
+           "if a < b then print 1\nif speed > 5 then a += 2\nif b > a then print 2\n",
+           "if a < b then print 1\nif b > a then print 2\nif a > b then print 3\n",
+           "if a < b then\n print 1\n later\n if a < b then print 2 else print 3\nend if\n",
+           "if a < b then\n print 1\n a += 2\n if b > a then print 2 else print 3\nend if\n",
+           "if a <= b then\n print 1\n if a <> b then\n print 2\n if a < b then print 3\n"
+           " end if\nend if\nif b < a then print 4\n",
+           "for i = 1 to 3\n if a * a > b then print i\n a -= 3\n if a * a > b then print "
+           "-i\nnext\n",
+       })
+    compare_text(start + body + end, 1);
+}
+
 TEST(Agreement, ProgramsThatHaveFoundSomething) {
   for (const std::uint64_t seed : {5472U, 10147U, 181497U})
     compare(seed);
