@@ -436,6 +436,8 @@ private:
   bool rewrite() {
     std::vector<std::uint32_t> dropped; // lines
     bool any = false;
+    for (const auto& line : code_.lines)
+      each_line_read(code_, line, [&](std::uint32_t v) { ++copies_[v].reads; });
     for (std::uint32_t b = 0; b < flow_.blocks.size(); ++b)
       if (ranges_.reaches(b))
         walk(b, [&](std::uint32_t i) {
@@ -483,8 +485,6 @@ private:
 
   /// Reads the originals of copies that are nothing else wherever they are read.
   bool read_originals() {
-    for (const auto& line : code_.lines)
-      each_line_read(code_, line, [&](std::uint32_t v) { ++copies_[v].reads; });
     bool any = false;
     const auto original = [&](std::uint32_t term) {
       const auto& copy = copies_[code_.terms[term].left];
@@ -506,6 +506,7 @@ private:
       if (const auto& other = code_.lines[i];
           !contains(stale_, deed_of_[i]) && same(code_, other.term, line.term)) {
         line.term = code_.read(other.variable);
+        ++copies_[other.variable].reads;
         return true;
       }
     return false;
