@@ -25,7 +25,8 @@ public:
       return false;
     count_reads();
     rewrite();
-    changed_ = thread_tests(code_, ranges_, added_) || changed_;
+    if (ways != Ways::AsTheyAre)
+      changed_ = thread_tests(code_, ranges_, added_) || changed_;
     if (!changed_ && added_.empty() && ways == Ways::Split)
       return split_ways(code_, ranges_);
     add_lines();

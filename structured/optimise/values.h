@@ -4,14 +4,15 @@
 
 namespace orb::structured {
 
-enum class Ways : std::uint8_t { Keep, Split };
+/// What happens to the ways of a program: none changes but for tests that are decided; decided ones
+/// lead past their tests; the same, and where nothing else changes, ways are split.
+enum class Ways : std::uint8_t { AsTheyAre, Decided, Split };
 
 /// Computes what values variables can have at each line, and uses it: tests with a certain outcome
 /// go, variables that are always a known number become that number, divisions and indices that
-/// cannot fail are marked, indices that can only fail are noted, ways whose tests are decided lead
-/// past them, and terms learn their ranges. Keeps what the program does; gives up, changing
-/// nothing, on programs that no robot holds. Where nothing else changes, ways can be split. True
-/// where something changed.
-bool use_values(Code& code, Ways ways = Ways::Keep);
+/// cannot fail are marked, indices that can only fail are noted, and terms learn their ranges. Keeps
+/// what the program does; gives up, changing nothing, on programs that no robot holds. True where
+/// something changed.
+bool use_values(Code& code, Ways ways = Ways::Decided);
 
 } // namespace orb::structured

@@ -181,10 +181,18 @@ TEST(Lift, CompiledProgramsDoTheSame) {
     if (compiled.has_errors() || !compiled.runs || !errors_of(compiled.robot.text).empty())
       continue;
     ++lifted;
+    SCOPED_TRACE("seed " + std::to_string(seed));
     compare(compiled.robot.text);
   }
   EXPECT_GT(lifted, programs / 4);
   RecordProperty("lifted", std::to_string(lifted));
+}
+
+/// A robot's loop runs once where its end is before its start, whatever leads to it.
+TEST(Lift, ALoopThatOneWayBringsPastItsEndRunsOnce) {
+  for (const std::string test : {"speed < 200", "speed > 200"})
+    compare("10 C = 4\n20 if " + test +
+            " then C = dshake\n30 for H = 2 to C - 1\n40 print H\n50 next H\n60 print C\n");
 }
 
 TEST(Lift, AProgramWithErrorsIsRefused) {
