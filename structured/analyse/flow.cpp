@@ -101,6 +101,19 @@ void find_touched(const Code& code, Flow& flow) {
 
 } // namespace
 
+std::vector<std::uint32_t> names_of_labels(const Code& code) {
+  std::vector<std::uint32_t> named(code.labels, 0);
+  const auto name = [&](std::uint32_t label) { ++named[label]; };
+  for (const auto& line : code.lines) {
+    each_label(code, line, name);
+    if (line.kind == LineKind::Choice)
+      for (const auto branch : {line.term, line.end})
+        if (branch != none)
+          each_label(code, code.branches[branch], name);
+  }
+  return named;
+}
+
 bool sets_element(const Code& code, const CodeLine& line) {
   if (line.kind == LineKind::SetElement)
     return true;

@@ -82,6 +82,9 @@ Flow read_flow(const Code& code);
 /// Whether a line itself sets an element.
 bool sets_element(const Code& code, const CodeLine& line);
 
+/// Of each label: how often it is named.
+std::vector<std::uint32_t> names_of_labels(const Code& code);
+
 /// Calls `visit` with each label that a line can go to.
 template <typename C, typename L, typename Visit>
 void each_target(C& code, L& line, Visit visit) {

@@ -1,8 +1,5 @@
 #include "structured/analyse/ranges.h"
 
-#include "spec/limits.h"
-#include "structured/optimise/jumps.h"
-
 #include <algorithm>
 #include <bit>
 #include <limits>
@@ -15,11 +12,6 @@ using spec::Operator;
 
 constexpr std::int32_t least_value = std::numeric_limits<std::int32_t>::min();
 constexpr std::int32_t greatest_value = std::numeric_limits<std::int32_t>::max();
-/// No robot runs more lines: it would take a day, at the rate that it is documented with.
-constexpr std::int32_t most_lines = 1 << 28;
-constexpr std::int32_t most_step = 4; ///< of a variable that counts
-constexpr std::int32_t most_start = 1 << 29;
-constexpr std::int32_t most_count = most_start + most_lines * most_step;
 constexpr std::size_t most_cells = std::size_t{1} << 21; ///< blocks times variables
 
 template <typename Visit>
@@ -31,22 +23,6 @@ void each_number(const Code& code, std::uint32_t term, Visit visit) {
     each_number(code, node.left, visit);
   if (node.kind == TermKind::Binary)
     each_number(code, node.right, visit);
-}
-
-/// Calls `visit(variable, n)` where a term is a variable with a number added.
-template <typename Visit>
-void if_sum(const Code& code, std::uint32_t term, Visit visit) {
-  const auto& node = code.terms[term];
-  if (node.kind == TermKind::Variable)
-    return visit(node.left, 0);
-  const bool adds = node.what == static_cast<int>(Operator::Add);
-  if (node.kind != TermKind::Binary || !code.is_number(node.right) ||
-      code.terms[node.left].kind != TermKind::Variable ||
-      (!adds && node.what != static_cast<int>(Operator::Subtract)))
-    return;
-  const auto value = code.terms[node.right].value;
-  if (adds || value != least_value)
-    visit(code.terms[node.left].left, adds ? value : -value);
 }
 
 } // namespace
@@ -117,70 +93,6 @@ void Ranges::find_landmarks() {
   landmarks_ = compiler::landmarks_of(std::move(named));
 }
 
-/// Variables that are only set to numbers and stepped: they do not wrap around.
-void Ranges::find_counters() {
-  counts_.assign(code_.variables.size(), true);
-  for (const auto& line : code_.lines) {
-    bool steps = line.kind == LineKind::Let && code_.is_number(line.term) &&
-                 std::abs(std::int64_t{code_.terms[line.term].value}) <= most_start;
-    if (line.kind == LineKind::Let)
-      if_sum(code_, line.term, [&](std::uint32_t variable, std::int32_t step) {
-        steps = variable == line.variable && std::abs(std::int64_t{step}) <= most_step;
-      });
-    if (!steps)
-      each_write(code_, line, [&](std::uint32_t v) { counts_[v] = false; });
-  }
-}
-
-/// What is known after an element has been used: its index was one of the array, or the program has
-/// stopped. A test of the index that fails leads there with an index that is none.
-void Ranges::find_proofs() {
-  proofs_.assign(code_.lines.size(), {});
-  const auto named = names_of_labels(code_);
-  for (std::uint32_t i = 0; i < code_.lines.size(); ++i)
-    if (const auto& line = code_.lines[i];
-        line.kind == LineKind::Let && line.variable == index_variable && !line.guard)
-      if_sum(code_, line.term, [&](std::uint32_t v, std::int32_t added) {
-        if (v != index_variable && std::abs(std::int64_t{added}) <= most_start)
-          find_proof(i, v, added, named);
-      });
-}
-
-void Ranges::find_proof(std::uint32_t i, std::uint32_t variable, std::int32_t added,
-                        std::span<const std::uint32_t> named) {
-  Range index{1, spec::value_of(spec::Limit::IndexedVariables)};
-  std::vector<std::uint32_t> labels; // that the tests lead to
-  for (++i; i < code_.lines.size(); ++i) {
-    const auto& line = code_.lines[i];
-    if (line.kind == LineKind::Label) {
-      const auto seen = std::count(labels.begin(), labels.end(), line.label);
-      if (static_cast<std::uint32_t>(seen) != named[line.label])
-        return;
-      continue;
-    }
-    if (line.kind == LineKind::Nothing || (line.kind == LineKind::Let && line.guard))
-      continue;
-    if (line.kind == LineKind::If && line.guard) {
-      const auto& relation = code_.conditions[line.condition].first;
-      const auto bound = code_.terms[relation.right].value;
-      const bool lower = relation.comparison == Comparison::Less ||
-                         relation.comparison == Comparison::GreaterEqual;
-      (lower ? index.lo : index.hi) = bound;
-      labels.push_back(line.label);
-      continue;
-    }
-    const bool uses =
-        (effects_of(code_, line) & effect::elements) != 0 || sets_element(code_, line);
-    bool changes = callee_of(line) != none;
-    each_write(code_, line,
-               [&](std::uint32_t v) { changes = changes || v == variable || v == index_variable; });
-    if (uses && !changes)
-      proofs_[i] = {variable, {index.lo - added, index.hi - added}};
-    if (uses || changes || line.kind == LineKind::If || !falls_through(line))
-      return;
-  }
-}
-
 void Ranges::find_data() {
   bool any = false;
   for (const auto& line : code_.lines) {
@@ -201,8 +113,8 @@ bool Ranges::follow() {
   if (blocks * code_.variables.size() > most_cells)
     return false;
   find_tracked();
-  find_counters();
-  find_proofs();
+  counts_ = counters_of(code_);
+  proofs_ = proofs_of(code_);
   find_landmarks();
   find_data();
   for (std::uint32_t b = 0; b < blocks; ++b)

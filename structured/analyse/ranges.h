@@ -2,6 +2,7 @@
 
 #include "compiler/lint/range.h"
 #include "structured/analyse/flow.h"
+#include "structured/analyse/proofs.h"
 
 #include <optional>
 #include <vector>
@@ -66,18 +67,8 @@ private:
     bool yet = false;                   ///< it has come back
   };
 
-  /// What is known of a variable after a line.
-  struct Proof {
-    std::uint32_t variable = none;
-    compiler::Range range;
-  };
-
   void find_tracked();
   void find_landmarks();
-  void find_counters();
-  void find_proofs();
-  void find_proof(std::uint32_t i, std::uint32_t variable, std::int32_t added,
-                  std::span<const std::uint32_t> named);
   void find_data();
 
   void load(std::uint32_t b, State& state) const;

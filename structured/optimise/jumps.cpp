@@ -304,19 +304,6 @@ std::vector<std::uint32_t> lines_of_labels(const Code& code) {
   return lines;
 }
 
-std::vector<std::uint32_t> names_of_labels(const Code& code) {
-  std::vector<std::uint32_t> named(code.labels, 0);
-  const auto name = [&](std::uint32_t label) { ++named[label]; };
-  for (const auto& line : code.lines) {
-    each_label(code, line, name);
-    if (line.kind == LineKind::Choice)
-      for (const auto branch : {line.term, line.end})
-        if (branch != none)
-          each_label(code, code.branches[branch], name);
-  }
-  return named;
-}
-
 std::vector<std::uint32_t> tidy(Code& code) {
   auto named = names_of_labels(code);
   std::erase_if(code.lines, [&](const CodeLine& line) {

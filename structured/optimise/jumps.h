@@ -25,9 +25,6 @@ std::vector<std::uint32_t> loops_of_lines(const Code& code);
 /// Of each label: its line, or none.
 std::vector<std::uint32_t> lines_of_labels(const Code& code);
 
-/// Of each label: how often it is named.
-std::vector<std::uint32_t> names_of_labels(const Code& code);
-
 /// Takes out lines that do nothing and labels that nothing names; the same.
 std::vector<std::uint32_t> tidy(Code& code);
 

@@ -1,5 +1,6 @@
 #include "structured/optimise/repeated.h"
 
+#include "structured/analyse/orders.h"
 #include "structured/analyse/ranges.h"
 
 #include <algorithm>
@@ -132,13 +133,12 @@ private:
       others.push_back(i);
       alike_[key_of(line.term)].push_back(i);
     }
-    number_orders();
+    orders_ = read_orders(code_, deeds_);
     read_.assign(deeds_, {});
     spoilt_by_ = VariableSets(code_.variables.size(), deeds_);
-    for (const auto& pair : pairs_)
+    for (const auto& pair : orders_.pairs)
       for (const auto term : {pair.left, pair.right})
-        each_read(code_, term,
-                  [&](std::uint32_t v) { set_orders(spoilt_by_[v], pair, all_orders); });
+        each_read(code_, term, [&](std::uint32_t v) { pair.insert_in(spoilt_by_[v], all_orders); });
     copies_.assign(code_.variables.size(), {});
     for (std::uint32_t i = 0; i < code_.lines.size(); ++i) {
       const auto& line = code_.lines[i];
@@ -155,81 +155,6 @@ private:
       else if (deed >= first_set_)
         insert(spoilt_by_[line.variable], deed);
     }
-  }
-
-  /// Two terms that several lines compare, and in which orders they can be: of each order a number,
-  /// that is stale where they can.
-  struct Pair {
-    std::uint32_t left;
-    std::uint32_t right;
-    std::uint32_t less; ///< its number; those of equal and greater follow
-  };
-  struct Test {
-    std::uint32_t pair = none;
-    unsigned holds = 0; ///< in these orders
-  };
-  static constexpr unsigned all_orders = 7;
-
-  void number_orders() {
-    tests_.assign(code_.lines.size(), {});
-    std::vector<std::pair<std::uint64_t, std::uint32_t>> comparing; // a hash of the terms, a line
-    for (std::uint32_t i = 0; i < code_.lines.size(); ++i) {
-      const auto& line = code_.lines[i];
-      if (line.kind != LineKind::If || line.guard)
-        continue;
-      const auto& condition = code_.conditions[line.condition];
-      if (condition.glue == Glue::None && effects_of(code_, line) == 0)
-        comparing.push_back({hash_of(condition.first.left) + hash_of(condition.first.right), i});
-    }
-    std::sort(comparing.begin(), comparing.end());
-    for (std::size_t n = 0; n < comparing.size(); ++n)
-      for (auto other = n + 1;
-           other < comparing.size() && comparing[other].first == comparing[n].first; ++other)
-        pair_up(comparing[n].second, comparing[other].second);
-  }
-
-  /// Gives two tests of the same terms the numbers of these.
-  void pair_up(std::uint32_t i, std::uint32_t other) {
-    const auto& one = code_.conditions[code_.lines[i].condition].first;
-    const auto& two = code_.conditions[code_.lines[other].condition].first;
-    const auto are_same = [&](std::uint32_t left, std::uint32_t right) {
-      return same(code_, one.left, left) && same(code_, one.right, right);
-    };
-    const bool as_it = are_same(two.left, two.right);
-    if (tests_[other].pair != none || (!as_it && !are_same(two.right, two.left)))
-      return;
-    if (tests_[i].pair == none) {
-      tests_[i] = {static_cast<std::uint32_t>(pairs_.size()), orders_of(one.comparison)};
-      pairs_.push_back({one.left, one.right, deeds_});
-      deeds_ += 3;
-    }
-    const auto& pair = pairs_[tests_[i].pair];
-    const bool turned = !(same(code_, pair.left, two.left) && same(code_, pair.right, two.right));
-    tests_[other] = {tests_[i].pair, orders_of(turned ? mirrored(two.comparison) : two.comparison)};
-  }
-
-  std::uint64_t hash_of(std::uint32_t term) const {
-    const auto& node = code_.terms[term];
-    if (node.kind == TermKind::Number)
-      return static_cast<std::uint32_t>(node.value);
-    return std::uint64_t{node.kind == TermKind::Variable ? node.left : node.what} << 32 | node.size;
-  }
-
-  static void set_orders(std::span<std::uint64_t> stale, const Pair& pair, unsigned orders) {
-    for (std::uint32_t n = 0; n < 3; ++n)
-      if ((orders >> n & 1) != 0)
-        insert(stale, pair.less + n);
-  }
-  static void take_orders(std::span<std::uint64_t> stale, const Pair& pair, unsigned orders) {
-    for (std::uint32_t n = 0; n < 3; ++n)
-      if ((orders >> n & 1) != 0)
-        remove(stale, pair.less + n);
-  }
-  unsigned orders_at(std::uint32_t i, std::span<const std::uint64_t> stale) const {
-    unsigned orders = 0;
-    for (std::uint32_t n = 0; n < 3; ++n)
-      orders |= contains(stale, pairs_[tests_[i].pair].less + n) ? 1U << n : 0U;
-    return orders;
   }
 
   bool is_copy(const CodeLine& line) const {
@@ -395,7 +320,7 @@ private:
         changed = unite(begins_[flow_.entries[callee]], stale_) || changed;
     });
     const auto& last = code_.lines[block.end - 1];
-    if (tests_[block.end - 1].pair != none)
+    if (orders_.tests[block.end - 1].pair != none)
       return leave_test(b, block.end - 1) || changed;
     for (const auto next : flow_.successors_of(block))
       changed = unite(begins_[next], stale_) || changed;
@@ -406,15 +331,16 @@ private:
 
   /// Goes on from a test with the orders that lead each way.
   bool leave_test(std::uint32_t b, std::uint32_t i) {
-    const auto& [pair, holds] = tests_[i];
-    const auto orders = orders_at(i, stale_);
+    const auto holds = orders_.tests[i].holds;
+    const auto& pair = orders_.pairs[orders_.tests[i].pair];
+    const auto orders = pair.in(stale_);
     bool changed = false;
     const auto enter = [&](std::uint32_t block, unsigned others) {
       if (block >= flow_.blocks.size() || (orders & ~others) == 0)
         return;
-      take_orders(stale_, pairs_[pair], others);
+      pair.remove_from(stale_, others);
       changed = unite(begins_[block], stale_) || changed;
-      set_orders(stale_, pairs_[pair], orders & others);
+      pair.insert_in(stale_, orders & others);
     };
     enter(flow_.block_of_label[code_.lines[i].label], all_orders & ~holds);
     enter(b + 1, holds);
@@ -442,7 +368,7 @@ private:
       if (ranges_.reaches(b))
         walk(b, [&](std::uint32_t i) {
           auto& line = code_.lines[i];
-          if (tests_[i].pair != none)
+          if (orders_.tests[i].pair != none)
             any = decide(i) || any;
           find_originals(line);
           if (deed_of_[i] != none && !contains(stale_, deed_of_[i]))
@@ -457,11 +383,12 @@ private:
 
   /// What a test finds, where another has found it before.
   bool decide(std::uint32_t i) {
-    const auto orders = orders_at(i, stale_);
+    const auto& test = orders_.tests[i];
+    const auto orders = orders_.pairs[test.pair].in(stale_);
     auto& line = code_.lines[i];
-    if ((orders & tests_[i].holds) == 0)
+    if ((orders & test.holds) == 0)
       line.kind = LineKind::Nothing;
-    else if ((orders & ~tests_[i].holds) == 0)
+    else if ((orders & ~test.holds) == 0)
       line.kind = LineKind::Goto;
     return line.kind != LineKind::If;
   }
@@ -521,8 +448,7 @@ private:
   std::vector<std::uint32_t> deed_of_;              ///< of each line: its number, or none
   std::uint32_t deeds_ = 0;
   std::uint32_t first_set_ = 0; ///< the first number of a way to set a variable
-  std::vector<Pair> pairs_;
-  std::vector<Test> tests_;            ///< of each line
+  Orders orders_; ///< that terms which several tests compare can have: stale where they can
   std::vector<Copy> copies_;           ///< of each variable
   std::vector<Elements> read_;         ///< of each of them; of routines with all that they call
   std::vector<std::uint32_t> readers_; ///< those that read elements

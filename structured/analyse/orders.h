@@ -1,0 +1,37 @@
+#pragma once
+
+#include "structured/analyse/flow.h"
+
+#include <vector>
+
+namespace orb::structured {
+
+/// Less, equal and greater, as bits.
+inline constexpr unsigned all_orders = 7;
+
+/// What the tests of a program compare.
+struct Orders {
+  /// Two terms that several tests compare. Each order that they can have has a number.
+  struct Pair {
+    std::uint32_t left;
+    std::uint32_t right;
+    std::uint32_t less; ///< the number of this order; those of equal and greater follow
+
+    void insert_in(std::span<std::uint64_t> set, unsigned orders) const;
+    void remove_from(std::span<std::uint64_t> set, unsigned orders) const;
+    /// The orders whose numbers are in a set.
+    unsigned in(std::span<const std::uint64_t> set) const;
+  };
+  struct Test {
+    std::uint32_t pair = none;
+    unsigned holds = 0; ///< in these orders
+  };
+
+  std::vector<Pair> pairs;
+  std::vector<Test> tests; ///< of each line
+};
+
+/// Finds tests of the same terms, which do nothing but that; takes numbers from `next` on.
+Orders read_orders(const Code& code, std::uint32_t& next);
+
+} // namespace orb::structured
