@@ -6,11 +6,13 @@
 namespace orb::structured {
 namespace {
 
-std::uint64_t hash_of(const Code& code, std::uint32_t term) {
+/// The same for terms that are the same.
+std::uint32_t hash_of(const Code& code, std::uint32_t term) {
   const auto& node = code.terms[term];
-  if (node.kind == TermKind::Number)
-    return static_cast<std::uint32_t>(node.value);
-  return std::uint64_t{node.kind == TermKind::Variable ? node.left : node.what} << 32 | node.size;
+  const auto what = node.kind == TermKind::Number     ? static_cast<std::uint32_t>(node.value)
+                    : node.kind == TermKind::Variable ? node.left
+                                                      : node.what;
+  return what << 8 ^ node.size;
 }
 
 /// Gives two tests of the same terms the numbers of these.
@@ -24,7 +26,7 @@ void pair_up(const Code& code, std::uint32_t i, std::uint32_t other, Orders& ord
   if (orders.tests[i].pair == none) {
     orders.tests[i] = {static_cast<std::uint32_t>(orders.pairs.size()), orders_of(one.comparison)};
     orders.pairs.push_back({one.left, one.right, next});
-    next += 3;
+    next += Orders::numbers;
   }
   orders.tests[other] = {orders.tests[i].pair,
                          orders_of(as_it ? two.comparison : mirrored(two.comparison))};
@@ -32,29 +34,11 @@ void pair_up(const Code& code, std::uint32_t i, std::uint32_t other, Orders& ord
 
 } // namespace
 
-void Orders::Pair::insert_in(std::span<std::uint64_t> set, unsigned orders) const {
-  for (std::uint32_t n = 0; n < 3; ++n)
-    if ((orders >> n & 1) != 0)
-      insert(set, less + n);
-}
-
-void Orders::Pair::remove_from(std::span<std::uint64_t> set, unsigned orders) const {
-  for (std::uint32_t n = 0; n < 3; ++n)
-    if ((orders >> n & 1) != 0)
-      remove(set, less + n);
-}
-
-unsigned Orders::Pair::in(std::span<const std::uint64_t> set) const {
-  unsigned orders = 0;
-  for (std::uint32_t n = 0; n < 3; ++n)
-    orders |= contains(set, less + n) ? 1U << n : 0U;
-  return orders;
-}
-
 Orders read_orders(const Code& code, std::uint32_t& next) {
+  next = (next + Orders::numbers - 1) / Orders::numbers * Orders::numbers;
   Orders orders;
   orders.tests.resize(code.lines.size());
-  std::vector<std::pair<std::uint64_t, std::uint32_t>> comparing; // a hash of the terms, a line
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> comparing; // a hash of the terms, a line
   for (std::uint32_t i = 0; i < code.lines.size(); ++i) {
     const auto& line = code.lines[i];
     if (line.kind != LineKind::If || line.guard)

@@ -11,16 +11,24 @@ inline constexpr unsigned all_orders = 7;
 
 /// What the tests of a program compare.
 struct Orders {
+  static constexpr std::uint32_t numbers = 4; ///< of each pair: together they are in one word
+
   /// Two terms that several tests compare. Each order that they can have has a number.
   struct Pair {
     std::uint32_t left;
     std::uint32_t right;
     std::uint32_t less; ///< the number of this order; those of equal and greater follow
 
-    void insert_in(std::span<std::uint64_t> set, unsigned orders) const;
-    void remove_from(std::span<std::uint64_t> set, unsigned orders) const;
+    void insert_in(std::span<std::uint64_t> set, std::uint64_t orders) const {
+      set[less / 64] |= orders << (less % 64);
+    }
+    void remove_from(std::span<std::uint64_t> set, std::uint64_t orders) const {
+      set[less / 64] &= ~(orders << (less % 64));
+    }
     /// The orders whose numbers are in a set.
-    unsigned in(std::span<const std::uint64_t> set) const;
+    unsigned in(std::span<const std::uint64_t> set) const {
+      return static_cast<unsigned>(set[less / 64] >> (less % 64)) & all_orders;
+    }
   };
   struct Test {
     std::uint32_t pair = none;

@@ -579,23 +579,14 @@ private:
 
   /// What a sub calls last returns for it.
   void call_last() {
-    const auto call = [](CodeLine& line) {
-      if (line.kind == LineKind::Gosub)
-        line.kind = LineKind::Goto;
-    };
     for (std::size_t i = 0; i < code_.lines.size(); ++i) {
       auto after = i + 1;
       while (after < code_.lines.size() && (code_.lines[after].kind == LineKind::Label ||
                                             code_.lines[after].kind == LineKind::Nothing))
         ++after;
-      if (after == code_.lines.size() || code_.lines[after].kind != LineKind::Return)
-        continue;
-      auto& line = code_.lines[i];
-      call(line);
-      if (line.kind == LineKind::Choice)
-        for (const auto branch : {line.term, line.end})
-          if (branch != none)
-            call(code_.branches[branch]);
+      if (code_.lines[i].kind == LineKind::Gosub && after < code_.lines.size() &&
+          code_.lines[after].kind == LineKind::Return)
+        code_.lines[i].kind = LineKind::Goto;
     }
   }
 

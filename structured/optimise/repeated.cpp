@@ -60,14 +60,6 @@ private:
     }
   };
 
-  /// A variable that holds what another does.
-  struct Copy {
-    std::vector<std::uint32_t> lines; ///< that set it so
-    std::uint32_t original = none;
-    std::uint32_t of_it = 0; ///< how often it is read as that
-    std::uint32_t reads = 0; ///< how often it is read
-  };
-
   /// Whether a line gives the same again where what it reads is the same, and is not noticed.
   bool repeats(const CodeLine& line) const {
     constexpr std::uint8_t moving = effect::clears | effect::senses;
@@ -139,14 +131,11 @@ private:
     for (const auto& pair : orders_.pairs)
       for (const auto term : {pair.left, pair.right})
         each_read(code_, term, [&](std::uint32_t v) { pair.insert_in(spoilt_by_[v], all_orders); });
-    copies_.assign(code_.variables.size(), {});
     for (std::uint32_t i = 0; i < code_.lines.size(); ++i) {
       const auto& line = code_.lines[i];
       const auto deed = deed_of_[i];
       if (deed == none)
         continue;
-      if (line.kind == LineKind::Let && deed >= first_set_ && is_copy(line))
-        copies_[line.variable].lines.push_back(i);
       each_root(code_, line, [&](std::uint32_t root) {
         each_read(code_, root, [&](std::uint32_t v) { insert(spoilt_by_[v], deed); });
       });
@@ -155,12 +144,6 @@ private:
       else if (deed >= first_set_)
         insert(spoilt_by_[line.variable], deed);
     }
-  }
-
-  bool is_copy(const CodeLine& line) const {
-    const auto& term = code_.terms[line.term];
-    return term.kind == TermKind::Variable && !code_.variables[line.variable].kept &&
-           line.variable != index_variable && term.left != index_variable;
   }
 
   /// What a call reads and gives; of what it changes only what it leaves there.
@@ -233,13 +216,12 @@ private:
 
   bool give_the_same(const std::vector<std::uint32_t>& some,
                      const std::vector<std::uint32_t>& others) const {
-    return std::is_permutation(some.begin(), some.end(), others.begin(), others.end(),
-                               [&](std::uint32_t a, std::uint32_t b) {
-                                 const auto& one = code_.lines[a];
-                                 const auto& other = code_.lines[b];
-                                 return one.variable == other.variable &&
-                                        same(code_, one.term, other.term);
-                               });
+    return std::equal(some.begin(), some.end(), others.begin(), others.end(),
+                      [&](std::uint32_t a, std::uint32_t b) {
+                        const auto& one = code_.lines[a];
+                        const auto& other = code_.lines[b];
+                        return one.variable == other.variable && same(code_, one.term, other.term);
+                      });
   }
 
   void find_elements() {
@@ -362,15 +344,12 @@ private:
   bool rewrite() {
     std::vector<std::uint32_t> dropped; // lines
     bool any = false;
-    for (const auto& line : code_.lines)
-      each_line_read(code_, line, [&](std::uint32_t v) { ++copies_[v].reads; });
     for (std::uint32_t b = 0; b < flow_.blocks.size(); ++b)
       if (ranges_.reaches(b))
         walk(b, [&](std::uint32_t i) {
           auto& line = code_.lines[i];
           if (orders_.tests[i].pair != none)
             any = decide(i) || any;
-          find_originals(line);
           if (deed_of_[i] != none && !contains(stale_, deed_of_[i]))
             dropped.push_back(i);
           else if (line.kind == LineKind::Let && deed_of_[i] != none)
@@ -378,7 +357,7 @@ private:
         });
     for (const auto i : dropped)
       code_.lines[i].kind = LineKind::Nothing;
-    return read_originals() || any || !dropped.empty();
+    return any || !dropped.empty();
   }
 
   /// What a test finds, where another has found it before.
@@ -393,39 +372,6 @@ private:
     return line.kind != LineKind::If;
   }
 
-  /// For what each variable that a line reads is a copy, if that has not changed.
-  void find_originals(const CodeLine& line) {
-    each_root(code_, line, [&](std::uint32_t root) {
-      each_read(code_, root, [&](std::uint32_t v) {
-        auto& copy = copies_[v];
-        const auto still = std::find_if(copy.lines.begin(), copy.lines.end(), [&](std::uint32_t i) {
-          return !contains(stale_, deed_of_[i]);
-        });
-        if (still == copy.lines.end() || line.kind == LineKind::For)
-          return;
-        const auto original = code_.terms[code_.lines[*still].term].left;
-        copy.original = copy.of_it == 0 || copy.original == original ? original : none;
-        ++copy.of_it;
-      });
-    });
-  }
-
-  /// Reads the originals of copies that are nothing else wherever they are read.
-  bool read_originals() {
-    bool any = false;
-    const auto original = [&](std::uint32_t term) {
-      const auto& copy = copies_[code_.terms[term].left];
-      if (copy.original == none || copy.reads != copy.of_it || copy.lines.empty())
-        return term;
-      any = true;
-      return code_.read(copy.original);
-    };
-    for (auto& line : code_.lines)
-      each_root(code_, line,
-                [&](std::uint32_t& root) { root = with_variables(code_, root, original); });
-    return any;
-  }
-
   bool read_other(CodeLine& line) {
     if (code_.terms[line.term].size == 1)
       return false;
@@ -433,7 +379,6 @@ private:
       if (const auto& other = code_.lines[i];
           !contains(stale_, deed_of_[i]) && same(code_, other.term, line.term)) {
         line.term = code_.read(other.variable);
-        ++copies_[other.variable].reads;
         return true;
       }
     return false;
@@ -449,7 +394,6 @@ private:
   std::uint32_t deeds_ = 0;
   std::uint32_t first_set_ = 0; ///< the first number of a way to set a variable
   Orders orders_; ///< that terms which several tests compare can have: stale where they can
-  std::vector<Copy> copies_;           ///< of each variable
   std::vector<Elements> read_;         ///< of each of them; of routines with all that they call
   std::vector<std::uint32_t> readers_; ///< those that read elements
   std::vector<Elements> stored_;       ///< of each routine, with all that it calls
