@@ -157,7 +157,11 @@ private:
   }
 
   void number_calls() {
-    std::vector<std::vector<std::uint32_t>> calls(code_.routines.size()); // lines
+    struct Call {
+      std::uint32_t deed;
+      std::vector<std::uint32_t> giving; ///< lines
+    };
+    std::vector<std::vector<Call>> calls(code_.routines.size()); // each way to call one
     for (std::uint32_t i = 0; i < code_.lines.size(); ++i) {
       const auto callee = callee_of(code_.lines[i]);
       if (callee == none || !repeatable_[callee])
@@ -169,14 +173,15 @@ private:
       const auto giving = lines_that_give(i);
       if (giving.empty())
         continue;
-      auto& others = calls[callee];
-      const auto same_one = std::find_if(others.begin(), others.end(), [&](std::uint32_t other) {
-        return give_the_same(giving, lines_that_give(other));
+      auto& ways = calls[callee];
+      const auto known = std::find_if(ways.begin(), ways.end(), [&](const Call& way) {
+        return give_the_same(giving, way.giving);
       });
-      deed_of_[i] = same_one == others.end() ? deeds_++ : deed_of_[*same_one];
+      deed_of_[i] = known == ways.end() ? deeds_++ : known->deed;
       for (const auto n : giving)
         deed_of_[n] = deed_of_[i];
-      others.push_back(i);
+      if (known == ways.end())
+        ways.push_back({deed_of_[i], giving});
     }
     first_set_ = deeds_;
   }
