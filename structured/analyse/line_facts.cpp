@@ -1,9 +1,5 @@
 #include "structured/analyse/line_facts.h"
 
-#include "bytecode/arithmetic.h"
-
-#include <utility>
-
 namespace orb::structured {
 namespace {
 
@@ -80,21 +76,13 @@ bool LineFacts::ends_text(const CodeLine& line) {
 }
 
 bool LineFacts::differ(std::uint32_t a, std::uint32_t b) const {
-  const auto split = [&](std::uint32_t term) {
-    const auto& node = code_.terms[term];
-    if (node.kind == TermKind::Number)
-      return std::pair{none, node.value};
-    const bool plus = node.what == static_cast<int>(spec::Operator::Add);
-    if (node.kind == TermKind::Binary && code_.is_number(node.right) &&
-        (plus || node.what == static_cast<int>(spec::Operator::Subtract)))
-      return std::pair{node.left, plus ? code_.terms[node.right].value
-                                       : bytecode::subtract(0, code_.terms[node.right].value)};
-    return std::pair{term, 0};
-  };
-  const auto [base, added] = split(a);
-  const auto [other, value] = split(b);
-  const bool alike = base == none || other == none ? base == other : same(code_, base, other);
-  return alike && added != value;
+  const auto one = sum_of(code_, a);
+  const auto other = sum_of(code_, b);
+  const bool alike = one.base == none || other.base == none ? one.base == other.base
+                                                            : same(code_, one.base, other.base);
+  // They wrap around.
+  return alike &&
+         static_cast<std::uint32_t>(one.number) != static_cast<std::uint32_t>(other.number);
 }
 
 } // namespace orb::structured

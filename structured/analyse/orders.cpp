@@ -20,19 +20,27 @@ void pair_up(const Code& code, std::uint32_t i, std::uint32_t other, Orders& ord
              std::uint32_t& next) {
   const auto& one = code.conditions[code.lines[i].condition].first;
   const auto& two = code.conditions[code.lines[other].condition].first;
-  const bool as_it = same(code, one.left, two.left) && same(code, one.right, two.right);
-  if (!as_it && !(same(code, one.left, two.right) && same(code, one.right, two.left)))
+  const auto holds = orders_as(code, one, two);
+  if (!holds)
     return;
   if (orders.tests[i].pair == none) {
     orders.tests[i] = {static_cast<std::uint32_t>(orders.pairs.size()), orders_of(one.comparison)};
     orders.pairs.push_back({one.left, one.right, next});
     next += Orders::numbers;
   }
-  orders.tests[other] = {orders.tests[i].pair,
-                         orders_of(as_it ? two.comparison : mirrored(two.comparison))};
+  orders.tests[other] = {orders.tests[i].pair, *holds};
 }
 
 } // namespace
+
+std::optional<unsigned> orders_as(const Code& code, const Relation& relation,
+                                  const Relation& other) {
+  if (same(code, relation.left, other.left) && same(code, relation.right, other.right))
+    return orders_of(other.comparison);
+  if (same(code, relation.left, other.right) && same(code, relation.right, other.left))
+    return orders_of(mirrored(other.comparison));
+  return std::nullopt;
+}
 
 Orders read_orders(const Code& code, std::uint32_t& next) {
   next = (next + Orders::numbers - 1) / Orders::numbers * Orders::numbers;

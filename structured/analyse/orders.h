@@ -2,6 +2,7 @@
 
 #include "structured/analyse/flow.h"
 
+#include <optional>
 #include <vector>
 
 namespace orb::structured {
@@ -38,6 +39,11 @@ struct Orders {
   std::vector<Pair> pairs;
   std::vector<Test> tests; ///< of each line
 };
+
+/// The orders of what `relation` compares in which another one of the same terms holds; nothing for
+/// other terms.
+std::optional<unsigned> orders_as(const Code& code, const Relation& relation,
+                                  const Relation& other);
 
 /// Finds tests of the same terms, which do nothing but that; takes numbers from `next` on.
 Orders read_orders(const Code& code, std::uint32_t& next);

@@ -5,29 +5,16 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <limits>
 #include <span>
 
 namespace orb::structured {
 namespace {
 
 using compiler::Range;
-using spec::Operator;
 
-/// Calls `visit(variable, n)` where a term is a variable with a number added.
-template <typename Visit>
-void if_sum(const Code& code, std::uint32_t term, Visit visit) {
-  const auto& node = code.terms[term];
-  if (node.kind == TermKind::Variable)
-    return visit(node.left, 0);
-  const bool adds = node.what == static_cast<int>(Operator::Add);
-  if (node.kind != TermKind::Binary || !code.is_number(node.right) ||
-      code.terms[node.left].kind != TermKind::Variable ||
-      (!adds && node.what != static_cast<int>(Operator::Subtract)))
-    return;
-  const auto value = code.terms[node.right].value;
-  if (adds || value != std::numeric_limits<std::int32_t>::min())
-    visit(code.terms[node.left].left, adds ? value : -value);
+/// The variable that a term is, or none.
+std::uint32_t variable_of(const Code& code, std::uint32_t term) {
+  return code.terms[term].kind == TermKind::Variable ? code.terms[term].left : none;
 }
 
 /// What is known after an element is used whose index line `i` sets to `variable` and a number.
@@ -71,13 +58,11 @@ void prove(const Code& code, std::uint32_t i, std::uint32_t variable, std::int32
 std::vector<bool> counters_of(const Code& code) {
   std::vector<bool> counts(code.variables.size(), true);
   for (const auto& line : code.lines) {
-    bool steps = line.kind == LineKind::Let && code.is_number(line.term) &&
-                 std::abs(std::int64_t{code.terms[line.term].value}) <= most_start;
-    if (line.kind == LineKind::Let)
-      if_sum(code, line.term, [&](std::uint32_t variable, std::int32_t step) {
-        steps = variable == line.variable && std::abs(std::int64_t{step}) <= most_step;
-      });
-    if (!steps)
+    const auto sum = line.kind == LineKind::Let ? sum_of(code, line.term) : Sum{};
+    const bool starts = sum.base == none && std::abs(sum.number) <= most_start;
+    const bool steps = sum.base != none && variable_of(code, sum.base) == line.variable &&
+                       std::abs(sum.number) <= most_step;
+    if (line.kind != LineKind::Let || (!starts && !steps))
       each_write(code, line, [&](std::uint32_t v) { counts[v] = false; });
   }
   return counts;
@@ -89,10 +74,10 @@ std::vector<Proof> proofs_of(const Code& code) {
   for (std::uint32_t i = 0; i < code.lines.size(); ++i)
     if (const auto& line = code.lines[i];
         line.kind == LineKind::Let && line.variable == index_variable && !line.guard)
-      if_sum(code, line.term, [&](std::uint32_t variable, std::int32_t added) {
-        if (variable != index_variable && std::abs(std::int64_t{added}) <= most_start)
-          prove(code, i, variable, added, named, proofs);
-      });
+      if (const auto sum = sum_of(code, line.term); sum.base != none)
+        if (const auto variable = variable_of(code, sum.base);
+            variable != none && variable != index_variable && std::abs(sum.number) <= most_start)
+          prove(code, i, variable, static_cast<std::int32_t>(sum.number), named, proofs);
   return proofs;
 }
 

@@ -279,6 +279,18 @@ Moved moved_side(const Code& code, const Relation& relation) {
   return right ? Moved::Right : Moved::Neither;
 }
 
+Sum sum_of(const Code& code, std::uint32_t term) {
+  const auto& node = code.terms[term];
+  if (node.kind == TermKind::Number)
+    return {none, node.value};
+  const bool adds = node.what == static_cast<int>(Operator::Add);
+  if (node.kind != TermKind::Binary || !code.is_number(node.right) ||
+      (!adds && node.what != static_cast<int>(Operator::Subtract)))
+    return {term, 0};
+  const std::int64_t number = code.terms[node.right].value;
+  return {node.left, adds ? number : -number};
+}
+
 Comparison opposite(Comparison comparison) {
   switch (comparison) {
   case Comparison::Equal: return Comparison::NotEqual;

@@ -194,6 +194,13 @@ using Identity = std::function<std::uint32_t(std::uint32_t variable)>;
 /// Whether two terms compute the same from the same variables, if nothing happens in between.
 bool same(const Code& code, std::uint32_t a, std::uint32_t b);
 
+/// A value as a sum: a term, or none, and a number.
+struct Sum {
+  std::uint32_t base = none;
+  std::int64_t number = 0;
+};
+Sum sum_of(const Code& code, std::uint32_t term);
+
 /// Whether a line may stop the program; jumps and calls themselves do not, nor does what they lead
 /// to count.
 bool may_fault(const Code& code, const CodeLine& line);

@@ -27,24 +27,6 @@ public:
   }
 
 private:
-  /// A value as a sum: a term, or none, and a number.
-  struct Sum {
-    std::uint32_t base = none;
-    std::int64_t number = 0;
-  };
-
-  Sum sum_of(std::uint32_t term) const {
-    const auto& node = code_.terms[term];
-    if (node.kind == TermKind::Number)
-      return {none, node.value};
-    const bool adds = node.what == static_cast<int>(Operator::Add);
-    if (node.kind == TermKind::Binary && code_.is_number(node.right) &&
-        (adds || node.what == static_cast<int>(Operator::Subtract)))
-      return {node.left, adds ? std::int64_t{code_.terms[node.right].value}
-                              : -std::int64_t{code_.terms[node.right].value}};
-    return {term, 0};
-  }
-
   /// The term that is `taken` where a relation holds and else `passed`, or none.
   std::uint32_t between(const Relation& relation, Sum taken, Sum passed) {
     const auto [lo, hi] = std::pair{relation.left_range.lo, relation.left_range.hi};
@@ -90,7 +72,7 @@ private:
     if ((effects & (sets ? effect::faults : 0xFF)) != 0)
       return false;
     if (!arms.has_both()) { // `if c then v = v + 1`
-      const Sum passed = sets ? sum_of(line.term) : Sum{};
+      const Sum passed = sets ? sum_of(code_, line.term) : Sum{};
       const auto itself = Sum{passed.base, 0};
       if (passed.base == none || code_.terms[passed.base].kind != TermKind::Variable ||
           code_.terms[passed.base].left != line.variable)
@@ -108,8 +90,8 @@ private:
       if (!good || same(code_, root, that))
         return;
       differ = true;
-      const auto passed = sum_of(root);
-      const auto taken = sum_of(that);
+      const auto passed = sum_of(code_, root);
+      const auto taken = sum_of(code_, that);
       root = between(relation, taken, passed);
       good = root != none;
     };

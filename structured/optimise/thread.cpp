@@ -1,5 +1,6 @@
 #include "structured/optimise/thread.h"
 
+#include "structured/analyse/orders.h"
 #include "structured/optimise/arms.h"
 #include "structured/optimise/jumps.h"
 
@@ -163,24 +164,17 @@ private:
     return best;
   }
 
-  /// In which orders two terms can be after the test that the way begins with.
+  /// In which orders the terms of a relation can be after the test that the way begins with.
   unsigned known_orders(const Relation& relation, const std::vector<std::uint32_t>& set) const {
-    constexpr unsigned any = 7;
     if (known_.left == none ||
         (code_.terms[known_.left].effects | code_.terms[known_.right].effects) != 0)
-      return any;
+      return all_orders;
     bool still = true;
     for (const auto term : {known_.left, known_.right})
       each_read(code_, term, [&](std::uint32_t v) {
         still = still && std::find(set.begin(), set.end(), v) == set.end();
       });
-    if (!still)
-      return any;
-    if (same(code_, known_.left, relation.left) && same(code_, known_.right, relation.right))
-      return orders_of(known_.comparison);
-    if (same(code_, known_.left, relation.right) && same(code_, known_.right, relation.left))
-      return orders_of(mirrored(known_.comparison));
-    return any;
+    return still ? orders_as(code_, relation, known_).value_or(all_orders) : all_orders;
   }
 
   /// The block that an `on` leads to, or none.
