@@ -577,13 +577,16 @@ private:
     }
   }
 
+  std::uint32_t past_labels(std::uint32_t i) const {
+    while (i < code_.lines.size() && code_.lines[i].kind == LineKind::Label)
+      ++i;
+    return i;
+  }
+
   /// What a sub calls last returns for it.
   void call_last() {
-    for (std::size_t i = 0; i < code_.lines.size(); ++i) {
-      auto after = i + 1;
-      while (after < code_.lines.size() && (code_.lines[after].kind == LineKind::Label ||
-                                            code_.lines[after].kind == LineKind::Nothing))
-        ++after;
+    for (std::uint32_t i = 0; i < code_.lines.size(); ++i) {
+      const auto after = past_labels(i + 1);
       if (code_.lines[i].kind == LineKind::Gosub && after < code_.lines.size() &&
           code_.lines[after].kind == LineKind::Return)
         code_.lines[i].kind = LineKind::Goto;
@@ -597,9 +600,7 @@ private:
     for (auto& line : code_.lines) {
       if (line.kind != LineKind::Goto || at[line.label] == none)
         continue;
-      auto target = at[line.label];
-      while (target < code_.lines.size() && code_.lines[target].kind == LineKind::Label)
-        ++target;
+      const auto target = past_labels(at[line.label]);
       if (target == code_.lines.size())
         continue;
       const auto& last = code_.lines[target];
