@@ -1,5 +1,5 @@
 ' Packs a row of colours as runs, lists the runs, unpacks them to the light and compares the result with the row.
-'   orb run tests/bench/programs/looked/runlength.bas --for 60s
+'   orb run tests/bench/programs/rethought/runlength.bas --for 60s
 10 data 1,1,1,4,4,7,7,7,7,2,3,3,3,5,5,5,5,5,5,6,0,0,1,1
 20 Y = 1
 30 read Z

@@ -1,5 +1,5 @@
 ' finds the hailstone walks that are longer, or climb higher, than all before
-'   orb run tests/bench/programs/looked/hail.bas --for 60s
+'   orb run tests/bench/programs/rethought/hail.bas --for 60s
 ' S: start, V: value, C: steps, P: peak, L: longest, F: its start, H: highest
 10 for S = 2 to 60
 20 V = S

@@ -1,5 +1,5 @@
 ' Finds the weekdays of some dates by Zeller's congruence, shows weekends in green, and lists when a 13th is a Friday.
-'   orb run tests/bench/programs/looked/weekday.bas --for 60s
+'   orb run tests/bench/programs/rethought/weekday.bas --for 60s
 10 data 20,7,1969,29,2,2000,31,4,1999,31,12,1999,29,2,2100,9,11,1989,24,12,2026
 20 for I = 1 to 7
 30 read D,M,Y

@@ -1,5 +1,5 @@
 ' records moves that the user types, replays them, and drives all the way back home
-'   orb run tests/bench/programs/looked/replay.bas --input 3,2,3,1,5,3,3,1,0
+'   orb run tests/bench/programs/rethought/replay.bas --input 3,2,3,1,5,3,3,1,0
 ' type 1 to turn left, 2 to turn right, 3 to drive a step, 0 when done
 ' M: the move typed; D and the list: degrees to turn, 0 or 360 drives; H: heading
 10 Y = 1

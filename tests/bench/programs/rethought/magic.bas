@@ -1,5 +1,5 @@
 ' builds a magic square of 25 numbers, shows and checks it, spoils it and checks again
-'   orb run tests/bench/programs/looked/magic.bas --for 60s
+'   orb run tests/bench/programs/rethought/magic.bas --for 60s
 ' the list: the square, row by row; P: the place of a number N
 ' W: wrong lines; S: sum of a row or column; F, G: sums of the diagonals
 10 Y = 3

@@ -1,5 +1,5 @@
 ' Asks eight multiplications with a second try and a hint each, and harder ones after three right answers in a row.
-'   orb run tests/bench/programs/looked/quiz.bas --for 60s --seed 2 --input 8,9,10,20,12,30,35,24,12,40
+'   orb run tests/bench/programs/rethought/quiz.bas --for 60s --seed 2 --input 8,9,10,20,12,30,35,24,12,40
 10 H = 4
 20 for Q = 1 to 8
 30 A = 1 + rnd H

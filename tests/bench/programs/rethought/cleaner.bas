@@ -1,5 +1,5 @@
 ' Cleans a floor of 4 by 4 tiles in a spiral, avoids the furniture, and prints in which order it cleaned the tiles.
-'   orb run tests/bench/programs/looked/cleaner.bas --for 60s
+'   orb run tests/bench/programs/rethought/cleaner.bas --for 60s
 10 for Y = 5 to 25 step 5                  ' 5 by 5 with walls to the right and below
 20 Z = 98
 30 next Y

@@ -1,5 +1,5 @@
 ' prints the numbers that the user types as roman numerals, until a 0 is typed
-'   orb run tests/bench/programs/looked/roman.bas --input 1994,48,3999,4000,7,0
+'   orb run tests/bench/programs/rethought/roman.bas --input 1994,48,3999,4000,7,0
 10 input N,10000,0
 20 if N = 0 then goto 290
 30 if N < 0 or N > 3999 then goto 260

@@ -1,5 +1,5 @@
 ' Simulates a heated room: the heater has a hysteresis, and tilting the ball opens the window.
-'   orb run tests/bench/programs/looked/thermostat.bas --for 60s --lines-per-second 1000000 --stimulus tests/bench/programs/tilts.stimulus
+'   orb run tests/bench/programs/rethought/thermostat.bas --for 60s --lines-per-second 1000000 --stimulus tests/bench/programs/tilts.stimulus
 10 T = 185                                 ' temperature in tenths
 20 C = T                                   ' the lowest
 30 H = 0 - 7                               ' 7: heats, -7: does not

@@ -1,5 +1,5 @@
 ' a parking gate: a shake is a car, the light is the state, the heading is the arm
-'   orb run tests/bench/programs/looked/gate.bas --stimulus tests/bench/programs/shakes.stimulus --lines-per-second 1000000
+'   orb run tests/bench/programs/rethought/gate.bas --stimulus tests/bench/programs/shakes.stimulus --lines-per-second 1000000
 ' S: 1 closed, 3 opening, 5 open, 7 closing, so that S + dshake says what to do
 ' A: angle of the arm, W: steps waited, N: cars
 10 LEDC 1
