@@ -157,11 +157,7 @@ private:
   }
 
   void number_calls() {
-    struct Call {
-      std::uint32_t deed;
-      std::vector<std::uint32_t> giving; ///< lines
-    };
-    std::vector<std::vector<Call>> calls(code_.routines.size()); // each way to call one
+    std::vector<std::vector<std::uint32_t>> calls(code_.routines.size()); // lines that differ
     for (std::uint32_t i = 0; i < code_.lines.size(); ++i) {
       const auto callee = callee_of(code_.lines[i]);
       if (callee == none || !repeatable_[callee])
@@ -173,15 +169,16 @@ private:
       const auto giving = lines_that_give(i);
       if (giving.empty())
         continue;
-      auto& ways = calls[callee];
-      const auto known = std::find_if(ways.begin(), ways.end(), [&](const Call& way) {
-        return give_the_same(giving, way.giving);
+      auto& others = calls[callee];
+      const auto same_one = std::find_if(others.begin(), others.end(), [&](std::uint32_t other) {
+        return gets_the_same(other, giving);
       });
-      deed_of_[i] = known == ways.end() ? deeds_++ : known->deed;
+      const bool is_new = same_one == others.end();
+      deed_of_[i] = is_new ? deeds_++ : deed_of_[*same_one];
       for (const auto n : giving)
         deed_of_[n] = deed_of_[i];
-      if (known == ways.end())
-        ways.push_back({deed_of_[i], giving});
+      if (is_new)
+        others.push_back(i);
     }
     first_set_ = deeds_;
   }
@@ -219,14 +216,17 @@ private:
     return (code_.terms[term].effects & (effect::clears | effect::senses | effect::elements)) == 0;
   }
 
-  bool give_the_same(const std::vector<std::uint32_t>& some,
-                     const std::vector<std::uint32_t>& others) const {
-    return std::equal(some.begin(), some.end(), others.begin(), others.end(),
-                      [&](std::uint32_t a, std::uint32_t b) {
-                        const auto& one = code_.lines[a];
-                        const auto& other = code_.lines[b];
-                        return one.variable == other.variable && same(code_, one.term, other.term);
-                      });
+  /// Whether what stands above a call that has its number gives the same as other lines.
+  bool gets_the_same(std::uint32_t call, const std::vector<std::uint32_t>& giving) const {
+    auto n = call;
+    return std::all_of(giving.begin(), giving.end(), [&](std::uint32_t i) {
+      do
+        if (n == 0)
+          return false;
+      while (code_.lines[--n].kind == LineKind::Nothing);
+      return deed_of_[n] == deed_of_[call] && code_.lines[n].variable == code_.lines[i].variable &&
+             same(code_, code_.lines[n].term, code_.lines[i].term);
+    });
   }
 
   void find_elements() {
