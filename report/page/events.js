@@ -35,6 +35,7 @@ export function forget_events() {
   clear_rows();
 }
 const most_rows = 500; // of a run that goes on
+const spare_rows = 50; // go at once: all that stay move up then
 /** More of a run that goes on; the oldest rows go. */
 export function list_more_events(more) {
   if (!more.length) return;
@@ -43,7 +44,7 @@ export function list_more_events(more) {
   events = [...events, ...fresh];
   event_times = events.map(event => event.t);
   const old = events.length - most_rows;
-  if (old > 0) {
+  if (old >= spare_rows) {
     events = events.slice(old);
     event_times = event_times.slice(old);
     for (const row of event_rows.splice(0, old)) row.remove();
