@@ -1,5 +1,6 @@
 #include "structured/meaning/checker.h"
 #include "structured/text/messages.h"
+#include "structured/text/words.h"
 
 namespace orb::structured {
 
@@ -19,24 +20,83 @@ void Checker::check_expressions(const Statement& statement) {
       continue;
     const auto root = part.value;
     for (auto n = program_.nodes[root].first; n <= root; ++n)
-      check_node(n, n == root);
+      check_node(statement, n, n == root);
     const bool condition_fits = statement.kind == Kind::If || statement.kind == Kind::ElseIf ||
                                 statement.kind == Kind::While || statement.kind == Kind::Until ||
                                 statement.kind == Kind::Broken; // of a block that is not there
     if (!program_.nodes[root].is_condition())
       continue;
     if (!condition_fits)
-      report_condition(root);
+      report_condition(statement, root);
     else
       check_sides(root);
   }
 }
 
-void Checker::report_condition(std::uint32_t node) {
+void Checker::report_condition(const Statement& statement, std::uint32_t node) {
   if (names_unknown(node))
     return;
-  report(rules::ConditionAsValue, program_.nodes[node].span,
-         "a condition cannot be used as a number", "write `if … then` and set the value there");
+  auto& d = report(rules::ConditionAsValue, program_.nodes[node].span,
+                   "a condition cannot be used as a number");
+  if (const auto word = word_between_numbers(node))
+    d.fix = Fix{"combine bits",
+                {{*word, program_.nodes[node].kind == NodeKind::And ? "&" : "|"}},
+                Safety::Unsafe};
+  else if (const auto line = with_if(statement, node))
+    d.fix = Fix{"use `if`", {{statement.span, *line}}, Safety::Unsafe};
+  else
+    d.help = "write `if … then` and set the value there";
+}
+
+std::optional<Span> Checker::word_between_numbers(std::uint32_t node) const {
+  const auto& nodes = program_.nodes;
+  if (nodes[node].kind != NodeKind::And && nodes[node].kind != NodeKind::Or)
+    return std::nullopt;
+  const auto& right = nodes[node - 1];
+  const auto& left = nodes[program_.before(node - 1)];
+  if (left.is_condition() || right.is_condition())
+    return std::nullopt;
+  const Span between{left.span.end, right.span.begin};
+  const auto word = program_.text_of(between);
+  const auto begin = word.find_first_not_of(") \t");
+  const auto end = word.find_first_of("( \t", begin);
+  return Span{between.begin + static_cast<std::uint32_t>(begin),
+              between.begin + static_cast<std::uint32_t>(std::min(end, word.size()))};
+}
+
+std::optional<std::string> Checker::with_if(const Statement& statement, std::uint32_t node) const {
+  const bool does_something = statement.kind == Kind::Assign || statement.kind == Kind::Return ||
+                              statement.kind == Kind::Print || statement.kind == Kind::Robot ||
+                              statement.kind == Kind::Call;
+  const std::string_view text = program_.text;
+  const auto ahead = text.substr(0, statement.span.begin).find_last_not_of(" \t");
+  const bool begins_line = ahead == std::string_view::npos || is_line_end(text[ahead]);
+  if (!does_something || !begins_line)
+    return std::nullopt;
+  auto condition = program_.nodes[node].span;
+  const auto is_elsewhere = [&](std::uint32_t n) {
+    const auto span = program_.nodes[n].span;
+    return program_.nodes[n].is_condition() &&
+           (span.begin < condition.begin || span.end > condition.end);
+  };
+  for (const auto& part : program_.items_of(statement))
+    if (part.kind == ItemKind::Expression || part.kind == ItemKind::Place ||
+        part.kind == ItemKind::Character)
+      for (auto n = program_.nodes[part.value].first; n <= part.value; ++n)
+        if (is_elsewhere(n))
+          return std::nullopt;
+  const auto asked = text.substr(condition.begin, condition.size());
+  // Parentheses of its own go; those of a call stay.
+  const auto before = text.substr(statement.span.begin, condition.begin - statement.span.begin);
+  const bool of_call = before.size() > 1 && is_name_char(before[before.size() - 2]);
+  if (before.ends_with('(') && !of_call && text.substr(condition.end).starts_with(')'))
+    condition = {condition.begin - 1, condition.end + 1};
+  const auto with = [&](std::string_view value) {
+    return fmt::format("{}{}{}",
+                       text.substr(statement.span.begin, condition.begin - statement.span.begin),
+                       value, text.substr(condition.end, statement.span.end - condition.end));
+  };
+  return fmt::format("if {} then {} else {}", asked, with("1"), with("0"));
 }
 
 bool Checker::joins_conditions(std::uint32_t n) const {
@@ -67,7 +127,7 @@ bool Checker::names_unknown(std::uint32_t root) const {
   return false;
 }
 
-void Checker::check_node(std::uint32_t n, bool is_root) {
+void Checker::check_node(const Statement& statement, std::uint32_t n, bool is_root) {
   const auto& node = program_.nodes[n];
   check_number(n, is_root);
   if (node.kind == NodeKind::System)
@@ -90,7 +150,7 @@ void Checker::check_node(std::uint32_t n, bool is_root) {
     return report_bitwise(n);
   for (auto operand = n - 1;; operand = program_.nodes[operand].first - 1) {
     if (program_.nodes[operand].is_condition())
-      report_condition(operand);
+      report_condition(statement, operand);
     if (program_.nodes[operand].first == node.first || program_.nodes[operand].first == 0)
       break;
   }

@@ -39,7 +39,14 @@ private:
 
   void check_expressions(const Statement& statement);
 
-  void report_condition(std::uint32_t node);
+  void report_condition(const Statement& statement, std::uint32_t node);
+
+  /// The `and` or `or` of two numbers.
+  std::optional<Span> word_between_numbers(std::uint32_t node) const;
+
+  /// The statement as an `if` of one line that puts 1 or 0 where a condition is a number; nothing
+  /// where it shares its line or asks for more.
+  std::optional<std::string> with_if(const Statement& statement, std::uint32_t node) const;
 
   /// Whether a name in an expression is unknown, which has been reported.
   bool names_unknown(std::uint32_t root) const;
@@ -51,7 +58,7 @@ private:
   bool joins_conditions(std::uint32_t n) const;
   void report_bitwise(std::uint32_t n);
 
-  void check_node(std::uint32_t n, bool is_root);
+  void check_node(const Statement& statement, std::uint32_t n, bool is_root);
 
   /// A sensor that is compared with a number, whichever side it stands on.
   void check_sensor(std::uint32_t n);
