@@ -65,6 +65,11 @@ struct Flow {
   bool is_line(const Place& place) const { return code[place.code].statement == place.statement; }
   /// The first line of that number, as `goto` finds it, or null.
   const Number* find(std::uint32_t number) const;
+  /// Whether a line above this one has its number already.
+  bool is_taken(std::uint32_t number, std::uint32_t line) const {
+    const auto* first = find(number);
+    return first != nullptr && first->line < line;
+  }
 };
 
 /// Reads the jumps of a program; linear in its size.

@@ -102,7 +102,7 @@ private:
       while (i + 1 < size_ && !is(reached, i + 1))
         ++i;
       const auto& line = program_.lines[line_of(first)];
-      if (!line.has_number())
+      if (!line.has_number() || flow_.is_taken(line.number, line_of(first)))
         continue;
       findings_.add(rules::UnreachableLine, line.number_span,
                     i == first

@@ -109,7 +109,7 @@ void TextPass::check_numbers() {
                                 spec::value_of(spec::Limit::GreatestLineNumber)));
     if (line.number <= last && i > 0)
       ascending = false;
-    if (line.number < last)
+    if (line.number < last && !flow_.is_taken(line.number, i)) // duplicate-line says so
       findings_.add(rules::UnsortedLines, line.number_span,
                     fmt::format("line {} is below line {}", line.number, last),
                     "lines run in the order of the text; `orb fmt --renumber` renumbers them");
@@ -159,11 +159,9 @@ void TextPass::check_duplicates() {
     add_note(d, original.number_span, "the first line with that number");
     if (++found > most_fixes)
       continue;
-    if (const auto free = free_number(row.line)) {
-      d.help = fmt::format("{} is free here", *free);
+    if (const auto free = free_number(row.line))
       d.fix =
           single_fix(fmt::format("renumber to {}", *free), line.number_span, std::to_string(*free));
-    }
   }
 }
 
@@ -171,7 +169,7 @@ std::optional<std::uint32_t> TextPass::free_number(std::uint32_t index) {
   std::uint32_t below = 0;
   for (std::uint32_t i = 0; i <= index; ++i)
     if (program_.lines[i].has_number())
-      below = program_.lines[i].number;
+      below = std::max(below, program_.lines[i].number);
   auto above = static_cast<std::uint32_t>(spec::value_of(spec::Limit::GreatestLineNumber)) + 1;
   for (auto i = index + 1; i < program_.lines.size(); ++i)
     if (program_.lines[i].has_number() && program_.lines[i].number > below) {
