@@ -249,7 +249,7 @@ private:
       for (const auto& jump : jumps)
         if (!jump.call && jump.to != none &&
             (jump.to < pairs_[pair].begin || jump.to > pairs_[pair].end) &&
-            !is_ended_at(jump.to, pairs_[pair].variable)) {
+            !comes_back(jump.to, pairs_[pair])) {
           auto& d = findings_.add(
               rules::JumpOutOfFor, program_.items[jump.item].span,
               fmt::format("line {} is outside the loop, which is left open", number_of(jump.to)),
@@ -259,10 +259,39 @@ private:
     }
   }
 
-  /// Whether the first line from here on that is more than straight text is the `next` of a loop.
-  bool is_ended_at(std::uint32_t code, std::uint32_t variable) const {
-    return ahead_[code] != none && parts_[ahead_[code]].effect == Effect::Closes &&
-           parts_[ahead_[code]].variable == variable;
+  /// Whether every way from here leads to the `next` of a loop, or back into the loop.
+  bool comes_back(std::uint32_t from, const Pair& pair) const {
+    constexpr std::size_t most = 64; // of ways that are followed: what is longer is not looked at
+    std::vector<std::uint32_t> ways{from};
+    bool back = false;
+    for (std::size_t i = 0; i < ways.size(); ++i) {
+      const auto at = ways[i] < size_ ? ahead_[ways[i]] : none;
+      if (at == none || ways.size() > most)
+        return false;
+      const auto& part = parts_[at];
+      const auto& code = flow_.code[part.code];
+      const bool about_loop = part.effect != Effect::Nothing && part.variable == pair.variable;
+      if (about_loop && part.effect == Effect::Closes) {
+        back = true;
+        continue;
+      }
+      const auto jumps = flow_.jumps_of(code);
+      if (about_loop || part.effect == Effect::Unsure || part.returns || code.ends ||
+          (!code.falls && jumps.empty()))
+        return false;
+      const auto go = [&](std::uint32_t to) {
+        if (to > pair.begin && to <= pair.end)
+          back = true;
+        else if (std::find(ways.begin(), ways.end(), to) == ways.end())
+          ways.push_back(to);
+      };
+      for (const auto& jump : jumps)
+        if (!jump.call)
+          go(jump.to);
+      if (code.falls)
+        go(part.code + 1);
+    }
+    return back;
   }
 
   void check_unended() {
