@@ -25,6 +25,14 @@ void each_number(const Code& code, std::uint32_t term, Visit visit) {
     each_number(code, node.right, visit);
 }
 
+/// Leaves of `range` what lies in `other`, too; false where nothing does.
+bool confine(Range& range, Range other) {
+  if (range.misses(other.lo, other.hi))
+    return false;
+  range = {std::max(range.lo, other.lo), std::min(range.hi, other.hi)};
+  return true;
+}
+
 } // namespace
 
 std::optional<compiler::Range> where(Comparison comparison, compiler::Range left,
@@ -66,6 +74,7 @@ Range Ranges::range_of(std::uint32_t term, const State& state) const {
 /// The variables whose values matter at the begin of each block.
 void Ranges::find_tracked() {
   const auto liveness = read_liveness(code_, flow_, Counting::SettingsToo);
+  find_proofs(liveness);
   begins_.reserve(flow_.blocks.size() + 1);
   for (std::uint32_t b = 0; b < flow_.blocks.size(); ++b) {
     begins_.push_back(static_cast<std::uint32_t>(tracked_.size()));
@@ -79,6 +88,20 @@ void Ranges::find_tracked() {
       if (contains(liveness.at_return[r], v))
         returns_[r].written.push_back(v);
     });
+}
+
+/// What lines prove of variables whose ranges are known there: those that nothing reads have none.
+void Ranges::find_proofs(const Liveness& liveness) {
+  proofs_ = proofs_of(code_);
+  for (std::uint32_t b = 0; b < flow_.blocks.size(); ++b) {
+    const auto live = liveness.in[b];
+    std::vector<std::uint64_t> known(live.begin(), live.end());
+    for (auto i = flow_.blocks[b].begin; i < flow_.blocks[b].end; ++i) {
+      if (proofs_[i].variable != none && !contains(known, proofs_[i].variable))
+        proofs_[i] = {};
+      each_write(code_, code_.lines[i], [&](std::uint32_t v) { insert(known, v); });
+    }
+  }
 }
 
 /// Numbers at which growing ranges stop first: those that tests, loops and
@@ -114,7 +137,6 @@ bool Ranges::follow() {
     return false;
   find_tracked();
   counts_ = counters_of(code_);
-  proofs_ = proofs_of(code_);
   find_landmarks();
   find_data();
   for (std::uint32_t b = 0; b < blocks; ++b)
@@ -204,14 +226,11 @@ bool Ranges::step(std::uint32_t b, const CodeLine& line, State& state) {
   if (const auto callee = callee_of(line); callee != none)
     return call(callee, state, b);
   set(line, state);
+  if (line.kind == LineKind::Let && counts_[line.variable] &&
+      !confine(state[line.variable], {-most_count, most_count}))
+    return false;
   const auto& proof = proofs_[static_cast<std::size_t>(&line - code_.lines.data())];
-  if (proof.variable != none) {
-    auto& range = state[proof.variable];
-    if (range.misses(proof.range.lo, proof.range.hi))
-      return false;
-    range = {std::max(range.lo, proof.range.lo), std::min(range.hi, proof.range.hi)};
-  }
-  return true;
+  return proof.variable == none || confine(state[proof.variable], proof.range);
 }
 
 /// An element of some array gets a value of a range: those who read one look again.
@@ -232,9 +251,7 @@ void Ranges::set(const CodeLine& line, State& state) {
   if (line.kind == LineKind::SetElement)
     set_element(range_of(line.term, state));
   if (line.kind == LineKind::Let) {
-    auto& range = state[line.variable] = range_of(line.term, state);
-    if (counts_[line.variable])
-      range = {std::max(range.lo, -most_count), std::min(range.hi, most_count)};
+    state[line.variable] = range_of(line.term, state);
   } else if (line.kind == LineKind::For) {
     // The body is entered with all values of the variable at once: each turn would add but one.
     const auto begin = state[line.variable] = range_of(line.term, state);
@@ -384,22 +401,14 @@ void Ranges::leave_switch(const CodeLine& line, State& state) {
 
 /// `on` a variable, or one with a number added, tells its value at each target.
 void Ranges::leave_on(const CodeLine& line, State& state) {
-  const auto& term = code_.terms[line.term];
-  const bool sum = term.kind == TermKind::Binary && code_.is_number(term.right) &&
-                   (static_cast<Operator>(term.what) == Operator::Add ||
-                    static_cast<Operator>(term.what) == Operator::Subtract) &&
-                   code_.terms[term.left].kind == TermKind::Variable;
-  const bool plain = term.kind == TermKind::Variable;
-  const auto variable = plain ? term.left : sum ? code_.terms[term.left].left : none;
+  const auto sum = sum_of(code_, line.term);
+  const bool steps = sum.base != none && code_.terms[sum.base].kind == TermKind::Variable;
+  const auto variable = steps ? code_.terms[sum.base].left : none;
   const auto before = variable == none ? Range{} : state[variable];
   for (auto i = line.parts_begin; i < line.parts_end; ++i) {
     const auto index = static_cast<std::int32_t>(i - line.parts_begin) + 1;
-    if (plain)
-      state[variable] = Range::only(index);
-    else if (sum)
-      state[variable] = compiler::apply(
-          static_cast<Operator>(term.what) == Operator::Add ? Operator::Subtract : Operator::Add,
-          Range::only(index), range_of(term.right, state));
+    if (variable != none)
+      state[variable] = Range::only(static_cast<std::int32_t>(index - sum.number));
     if (variable == none || !before.misses(state[variable].lo, state[variable].hi))
       enter(flow_.block_of_label[code_.parts[i].value], state);
   }

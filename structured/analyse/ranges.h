@@ -68,6 +68,7 @@ private:
   };
 
   void find_tracked();
+  void find_proofs(const Liveness& liveness);
   void find_landmarks();
   void find_data();
 

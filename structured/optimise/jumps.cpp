@@ -104,7 +104,8 @@ private:
       }
     }
     for (std::size_t r = 1; r < code_.routines.size(); ++r)
-      if (code_.routines[r] != none && !reached[at_[code_.routines[r]]])
+      if (const auto label = code_.routines[r];
+          label != none && (at_[label] == none || !reached[at_[label]]))
         code_.routines[r] = none;
   }
 

@@ -289,8 +289,12 @@ private:
   void follow() {
     begins_ = VariableSets(flow_.blocks.size(), deeds_);
     returned_ = VariableSets(code_.routines.size(), deeds_);
+    entered_.assign(flow_.blocks.size(), false);
+    comes_back_.assign(code_.routines.size(), false);
     for (std::uint32_t deed = 0; deed < deeds_; ++deed)
       insert(begins_[0], deed);
+    if (!entered_.empty())
+      entered_[0] = true;
     for (bool changed = true; changed;) {
       changed = false;
       for (std::uint32_t b = 0; b < flow_.blocks.size(); ++b)
@@ -298,21 +302,33 @@ private:
     }
   }
 
+  /// Comes to a block with what is stale; true where that is news.
+  bool enter(std::uint32_t b) {
+    const bool first = !entered_[b];
+    entered_[b] = true;
+    return unite(begins_[b], stale_) || first;
+  }
+
   bool follow(std::uint32_t b) {
     const auto& block = flow_.blocks[b];
     bool changed = false;
-    walk(b, [&](std::uint32_t i) {
+    const bool ends = walk(b, [&](std::uint32_t i) {
       if (const auto callee = callee_of(code_.lines[i]);
           callee != none && flow_.entries[callee] != none)
-        changed = unite(begins_[flow_.entries[callee]], stale_) || changed;
+        changed = enter(flow_.entries[callee]) || changed;
     });
+    if (!ends)
+      return changed;
     const auto& last = code_.lines[block.end - 1];
     if (orders_.tests[block.end - 1].pair != none)
       return leave_test(b, block.end - 1) || changed;
     for (const auto next : flow_.successors_of(block))
-      changed = unite(begins_[next], stale_) || changed;
-    if (last.kind == LineKind::Return)
-      changed = unite(returned_[last.routine], stale_) || changed;
+      changed = enter(next) || changed;
+    if (last.kind == LineKind::Return) {
+      const bool first = !comes_back_[last.routine];
+      comes_back_[last.routine] = true;
+      changed = unite(returned_[last.routine], stale_) || first || changed;
+    }
     return changed;
   }
 
@@ -322,27 +338,33 @@ private:
     const auto& pair = orders_.pairs[orders_.tests[i].pair];
     const auto orders = pair.in(stale_);
     bool changed = false;
-    const auto enter = [&](std::uint32_t block, unsigned others) {
+    const auto leave = [&](std::uint32_t block, unsigned others) {
       if (block >= flow_.blocks.size() || (orders & ~others) == 0)
         return;
       pair.remove_from(stale_, others);
-      changed = unite(begins_[block], stale_) || changed;
+      changed = enter(block) || changed;
       pair.insert_in(stale_, orders & others);
     };
-    enter(flow_.block_of_label[code_.lines[i].label], all_orders & ~holds);
-    enter(b + 1, holds);
+    leave(flow_.block_of_label[code_.lines[i].label], all_orders & ~holds);
+    leave(b + 1, holds);
     return changed;
   }
 
-  /// Calls `visit` with each line of a block; before it, `stale_` are stale.
+  /// Calls `visit` with each line of a block that something comes to; before it, `stale_` are
+  /// stale. False where nothing comes to its end.
   template <typename Visit>
-  void walk(std::uint32_t b, Visit visit) {
+  bool walk(std::uint32_t b, Visit visit) {
+    if (!entered_[b])
+      return false;
     const auto begin = begins_[b];
     stale_.assign(begin.begin(), begin.end());
     for (auto i = flow_.blocks[b].begin; i < flow_.blocks[b].end; ++i) {
       visit(i);
       step(i, stale_);
+      if (const auto callee = callee_of(code_.lines[i]); callee != none && !comes_back_[callee])
+        return false;
     }
+    return true;
   }
 
   /// Drops what need not be done again, and reads what another variable has been set to.
@@ -404,9 +426,11 @@ private:
   std::vector<Elements> stored_;       ///< of each routine, with all that it calls
   std::vector<Elements> stores_;       ///< of each line itself
   std::map<std::pair<int, int>, std::vector<std::uint32_t>> alike_; ///< lines that set variables
-  VariableSets spoilt_by_; ///< of each variable: what must be done again when it is set
-  VariableSets begins_;    ///< of each block: what is stale at its begin
-  VariableSets returned_;  ///< of each routine: what is where it returns
+  VariableSets spoilt_by_;       ///< of each variable: what must be done again when it is set
+  VariableSets begins_;          ///< of each block: what is stale at its begin
+  VariableSets returned_;        ///< of each routine: what is where it returns
+  std::vector<bool> entered_;    ///< of each block: something comes to it
+  std::vector<bool> comes_back_; ///< of each routine
   std::vector<std::uint64_t> stale_;
 };
 

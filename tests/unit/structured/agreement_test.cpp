@@ -131,6 +131,37 @@ TEST(Agreement, CompiledHabitsDoWhatTheTextSays) {
     compare(seed, Style::Habits);
 }
 
+TEST(Agreement, CompiledShortProgramsDoWhatTheTextSays) {
+  const auto programs = how_many();
+  for (std::uint64_t seed = 1; seed <= programs && !::testing::Test::HasFailure(); ++seed)
+    compare(seed, Style::Short);
+}
+
+/// An index that is used is one of the array; of a variable that nobody reads any more after it
+/// nothing is known.
+TEST(Agreement, IndicesThatAreReadNoMore) {
+  for (const std::string body : {
+           "array t[6]\ninput n, 5ms, 3\nn = t[n]\nsay(5)\nsay(n)\n",
+           "array t[5]\ninput n, 5ms, 3\nn = t[n]\nsay(5)\nsay(n)\n",
+           "array t[6]\ninput n, 5ms, 3\nt[n] = 9\nn = t[n]\nsay(n)\nsay(n + 1)\n",
+           "array t[6]\nfor i = 1 to 3\n input n, 5ms, 2\n n = t[n + i]\n say(n)\n say(7)\nnext\n",
+       })
+    compare_text(body + "sub say(p)\n print p / 3, 4\nend sub\n", 1);
+}
+
+/// A call where nothing comes goes, and with the last one the sub.
+TEST(Agreement, CallsWhereNothingComes) {
+  const std::string start = "input a, 5ms, 3\ninput b, 5ms, 1\n";
+  const std::string end = "function f(p, q)\n return p + q\nend function\n";
+  for (const std::string body : {
+           "if a < b then\n print 5\n if a > b then\n print 6\n c = f(c, b)\n end if\nend if\n"
+           "if 0 > 1 then print f(a, b)\n",
+           "if 9 <= 0 then\n print f(a, b)\nelse\n if a * b = 3 then\n print 1\n"
+           " if 3 < a * b then\n input c, 5ms, 9\n b = f(c, b)\n end if\n end if\nend if\n",
+       })
+    compare_text(start + body + end, 1);
+}
+
 /// A call that has been made need not be made again, but where what it reads has changed: by the
 /// lines between, by the call itself, by what gives it something, on one of two ways.
 TEST(Agreement, CallsThatUseUpWhatTheyAreGiven) {
@@ -269,7 +300,7 @@ TEST(Agreement, IndicesThatAreErrorsAreWrong) {
 
 TEST(Agreement, MostRandomProgramsCompileAndRun) {
   // Programs that are all refused would prove nothing. Which they are depends on the compiler.
-  for (const auto style : {Style::Any, Style::Habits}) {
+  for (const auto style : {Style::Any, Style::Habits, Style::Short}) {
     int compiled_ones = 0;
     int ended = 0;
     for (std::uint64_t seed = 1; seed <= 450; ++seed) {

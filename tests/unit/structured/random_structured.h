@@ -12,10 +12,11 @@ namespace orb::testing {
 /// Writes structured programs at random, the same for the same seed: all statements and blocks,
 /// calls with side effects inside expressions, values at the edge of what is allowed. Most end.
 /// With habits, half of it is what people often write: counting by hand, flags, chains of equal
-/// tests, two values exchanged, functions that answer yes or no.
+/// tests, two values exchanged, functions that answer yes or no. Short ones are few such lines
+/// about values that nobody knows when compiling: nothing else keeps alive what is wrongly dropped.
 class RandomStructured {
 public:
-  enum class Style { Any, Habits };
+  enum class Style { Any, Habits, Short };
   explicit RandomStructured(std::uint64_t seed, Style style = Style::Any)
       : random_{seed}, style_(style) {}
 
@@ -27,16 +28,21 @@ public:
     for (int n = 0; n < arrays_; ++n)
       out_ += "array list" + std::to_string(n) + "[" + std::to_string(sizes[n]) + "]\n";
     out_ += "data 4, 1, -3, k1 * 2, 300\n";
-    crowd_ = chance(0.1) ? 17 + upto(3) : 0;
+    const bool is_short = style_ == Style::Short;
+    crowd_ = !is_short && chance(0.1) ? 17 + upto(3) : 0;
     for (const char* name : names)
-      out_ += std::string(name) + " = " + number() + "\n";
+      if (is_short && chance(0.5))
+        out_ += "input " + std::string(name) + ", 5ms, " + number() + "\n";
+      else
+        out_ += std::string(name) + " = " + number() + "\n";
     // Values that nobody knows when compiling need letters of their own: about all there are.
     for (int n = 0; n < crowd_; ++n)
       out_ += "input c" + std::to_string(n) + ", 5ms, " + number() + "\n";
-    block(1, 3 + upto(5));
+    block(1, is_short ? 1 + upto(3) : 3 + upto(5));
     out_ += "print";
     for (const char* name : names)
-      out_ += std::string(" ") + name + ",";
+      if (!is_short || chance(0.3))
+        out_ += std::string(" ") + name + ",";
     for (int n = 0; n < crowd_; ++n)
       out_ += " c" + std::to_string(n);
     out_ += " 0\n";
@@ -65,7 +71,7 @@ private:
       out_ += parameters == 1 ? "(p)" : "(p, q)";
     out_ += chance(0.3) ? "\n  local v = " + expression(2) + "\n" : "\n  local v\n";
     loops_ = 0;
-    if (function && style_ == Style::Habits && chance(0.6))
+    if (function && style_ != Style::Any && chance(0.6))
       return chance(0.3) && parameters > 0 ? use_up() : answer();
     block(2, 1 + upto(3));
     if (function && chance(0.8))
@@ -258,7 +264,9 @@ private:
   std::string counter() { return "i" + std::to_string(loops_) + "_" + std::to_string(routine_); }
 
   void statement(int depth) {
-    if (style_ == Style::Habits && depth < 5 && chance(0.5))
+    if (style_ == Style::Short && depth < 5 && chance(0.4))
+      return chance(0.5) ? follow_list(depth) : ask_between(depth);
+    if (style_ != Style::Any && depth < 5 && chance(0.5))
       return habit(depth);
     const int kind = depth > 4 ? 24 : upto(24);
     switch (kind) {
@@ -706,6 +714,60 @@ private:
     if (chance(0.5))
       line(depth + 1, simple());
     line(depth, "end if");
+  }
+
+  /// What an element says is where the next one is.
+  void follow_list(int depth) {
+    if (arrays_ == 0)
+      return order(depth);
+    const int array = upto(arrays_);
+    const auto list = "list" + std::to_string(array);
+    const auto name = variable();
+    line(depth, "input " + name + ", 5ms, " + std::to_string(1 + upto(sizes[array])));
+    for (int n = upto(3); n > 0; --n)
+      line(depth, list + "[" + (chance(0.5) ? name : std::to_string(1 + upto(sizes[array]))) +
+                      "] = " + (chance(0.7) ? std::to_string(1 + upto(sizes[array])) : small()));
+    for (int n = 1 + upto(2); n > 0; --n)
+      line(depth, (chance(0.7) ? name : variable()) + " = " + list + "[" + name +
+                      (chance(0.2) ? " + 1" : "") + "]");
+    for (int n = upto(3); n > 0; --n)
+      line(depth, simple());
+    line(depth, "print " + (chance(0.5) ? name : expression(1)));
+  }
+
+  /// Two values compared again while it is known how they compare, and a call in between.
+  void ask_between(int depth) {
+    static const std::vector<std::string> signs = {" = ", " <> ", " < ", " > ", " <= ", " >= "};
+    const auto a = variable();
+    const auto b = variable();
+    const auto test = [&] {
+      const auto sign = signs[random_.below(signs.size())];
+      return "if " + (chance(0.7) ? a + sign + b : b + sign + a) + " then";
+    };
+    const auto call = [&](int at) {
+      const int callee = 1 + upto(std::max(subs_ + functions_, 1));
+      if (callee <= routine_ || callee > subs_ + functions_)
+        return line(at, simple());
+      const auto given = name_of(callee) + arguments(callee, 3);
+      line(at, is_function(callee) ? variable() + " = " + given : given);
+    };
+    line(depth, test());
+    if (chance(0.5))
+      call(depth + 1);
+    line(depth + 1, test());
+    call(depth + 1);
+    if (chance(0.3)) {
+      line(depth + 1, "else");
+      call(depth + 1);
+    }
+    line(depth + 1, "end if");
+    if (chance(0.3)) {
+      line(depth, "else");
+      call(depth + 1);
+    }
+    line(depth, "end if");
+    if (chance(0.3))
+      line(depth, test() + " " + simple());
   }
 
   Random random_;
