@@ -3,6 +3,53 @@
 #include "structured/text/words.h"
 
 namespace orb::structured {
+namespace {
+
+constexpr std::string_view blanks = " \t";
+
+/// The parenthesis before a part of a text or behind it, over blanks; npos where there is none.
+std::size_t opening(std::string_view text, Span part) {
+  const auto at = text.substr(0, part.begin).find_last_not_of(blanks);
+  return at != std::string_view::npos && text[at] == '(' ? at : std::string_view::npos;
+}
+std::size_t closing(std::string_view text, Span part) {
+  const auto at = text.find_first_not_of(blanks, part.end);
+  return at != std::string_view::npos && text[at] == ')' ? at : std::string_view::npos;
+}
+
+/// An expression with the parentheses of its first and last operands, which its span leaves out.
+std::optional<Span> balanced(std::string_view text, Span part) {
+  for (;;) {
+    int open = 0;
+    int least = 0;
+    for (auto i = part.begin; i < part.end; ++i) {
+      open += text[i] == '(' ? 1 : text[i] == ')' ? -1 : 0;
+      least = std::min(least, open);
+    }
+    if (open == 0 && least == 0)
+      return part;
+    const auto at = least < 0 ? opening(text, part) : closing(text, part);
+    if (at == std::string_view::npos)
+      return std::nullopt;
+    (least < 0 ? part.begin : part.end) = static_cast<std::uint32_t>(least < 0 ? at : at + 1);
+  }
+}
+
+/// An expression with the parentheses around it, but for those of a call.
+Span in_parentheses(std::string_view text, Span part) {
+  for (;;) {
+    const auto begin = opening(text, part);
+    const auto end = closing(text, part);
+    if (begin == std::string_view::npos || end == std::string_view::npos)
+      return part;
+    const auto before = text.substr(0, begin).find_last_not_of(blanks);
+    if (before != std::string_view::npos && is_name_char(text[before]))
+      return part;
+    part = {static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end) + 1};
+  }
+}
+
+} // namespace
 
 void Checker::note_timer(const Statement& statement) {
   if (statement.kind != Kind::Assign || size(statement) < 2)
@@ -56,24 +103,29 @@ std::optional<Span> Checker::word_between_numbers(std::uint32_t node) const {
   const auto& left = nodes[program_.before(node - 1)];
   if (left.is_condition() || right.is_condition())
     return std::nullopt;
+  // Parentheses of the operands lie between them, too, and the word is all else there may be.
   const Span between{left.span.end, right.span.begin};
-  const auto word = program_.text_of(between);
-  const auto begin = word.find_first_not_of(") \t");
-  const auto end = word.find_first_of("( \t", begin);
+  const auto text = program_.text_of(between);
+  const auto begin = text.find_first_not_of(") \t");
+  const auto end = std::min(text.find_first_of("( \t", begin), text.size());
+  if (text.substr(begin, end - begin).find_first_of("\r\n'") != std::string_view::npos ||
+      text.find_first_not_of("( \t", end) != std::string_view::npos)
+    return std::nullopt;
   return Span{between.begin + static_cast<std::uint32_t>(begin),
-              between.begin + static_cast<std::uint32_t>(std::min(end, word.size()))};
+              between.begin + static_cast<std::uint32_t>(end)};
 }
 
 std::optional<std::string> Checker::with_if(const Statement& statement, std::uint32_t node) const {
   const bool does_something = statement.kind == Kind::Assign || statement.kind == Kind::Return ||
                               statement.kind == Kind::Print || statement.kind == Kind::Robot ||
                               statement.kind == Kind::Call;
-  const std::string_view text = program_.text;
-  const auto ahead = text.substr(0, statement.span.begin).find_last_not_of(" \t");
-  const bool begins_line = ahead == std::string_view::npos || is_line_end(text[ahead]);
-  if (!does_something || !begins_line)
+  const auto all = program_.text_of(statement.span);
+  const auto ahead =
+      std::string_view(program_.text).substr(0, statement.span.begin).find_last_not_of(" \t");
+  const bool begins_line = ahead == std::string_view::npos || is_line_end(program_.text[ahead]);
+  if (!does_something || !begins_line || all.find_first_of("\r\n") != std::string_view::npos)
     return std::nullopt;
-  auto condition = program_.nodes[node].span;
+  const auto condition = program_.nodes[node].span;
   const auto is_elsewhere = [&](std::uint32_t n) {
     const auto span = program_.nodes[n].span;
     return program_.nodes[n].is_condition() &&
@@ -85,18 +137,16 @@ std::optional<std::string> Checker::with_if(const Statement& statement, std::uin
       for (auto n = program_.nodes[part.value].first; n <= part.value; ++n)
         if (is_elsewhere(n))
           return std::nullopt;
-  const auto asked = text.substr(condition.begin, condition.size());
-  // Parentheses of its own go; those of a call stay.
-  const auto before = text.substr(statement.span.begin, condition.begin - statement.span.begin);
-  const bool of_call = before.size() > 1 && is_name_char(before[before.size() - 2]);
-  if (before.ends_with('(') && !of_call && text.substr(condition.end).starts_with(')'))
-    condition = {condition.begin - 1, condition.end + 1};
+  const auto asked =
+      balanced(all, {condition.begin - statement.span.begin, condition.end - statement.span.begin});
+  if (!asked)
+    return std::nullopt;
+  const auto replaced = in_parentheses(all, *asked);
   const auto with = [&](std::string_view value) {
-    return fmt::format("{}{}{}",
-                       text.substr(statement.span.begin, condition.begin - statement.span.begin),
-                       value, text.substr(condition.end, statement.span.end - condition.end));
+    return fmt::format("{}{}{}", all.substr(0, replaced.begin), value, all.substr(replaced.end));
   };
-  return fmt::format("if {} then {} else {}", asked, with("1"), with("0"));
+  return fmt::format("if {} then {} else {}", all.substr(asked->begin, asked->size()), with("1"),
+                     with("0"));
 }
 
 bool Checker::joins_conditions(std::uint32_t n) const {
