@@ -5,6 +5,7 @@
 #include "structured/text/blocks.h"
 
 #include <algorithm>
+#include <set>
 
 namespace orb::structured {
 namespace {
@@ -25,7 +26,7 @@ public:
     cost_.assign(count, 0);
     sites_.assign(count, 0);
     nested_.assign(count, 0);
-    heights_.assign(count, 0);
+    inside_.assign(count, {});
   }
 
   Plan run() {
@@ -192,10 +193,20 @@ private:
 
   // ---- loops
 
+  /// The robot's loops in something.
+  struct Inside {
+    std::uint32_t height = 0;        ///< how many inside each other
+    std::set<std::uint32_t> counted; ///< symbols that they count with
+
+    void add(const Inside& other) {
+      height = std::max(height, other.height);
+      counted.insert(other.counted.begin(), other.counted.end());
+    }
+  };
   struct OpenLoop {
     std::uint32_t statement;
     bool left = false; ///< something jumps out of it
-    std::uint32_t height = 0;
+    Inside inside;
   };
 
   void read_loops() {
@@ -203,24 +214,21 @@ private:
     for (const auto i : program_.order)
       bodies[names_.routine_of[i]].push_back(i);
     for (const auto routine : callees_first_)
-      heights_[routine] = read_loops(bodies[routine]);
+      inside_[routine] = read_loops(bodies[routine]);
   }
 
-  /// How many of the robot's loops a body needs inside each other.
-  std::uint32_t read_loops(const std::vector<std::uint32_t>& body) {
-    std::vector<OpenLoop> open{{none, false, 0}};
-    const auto raise = [&](std::uint32_t height) {
-      open.back().height = std::max(open.back().height, height);
-    };
+  Inside read_loops(const std::vector<std::uint32_t>& body) {
+    std::vector<OpenLoop> open{{none, false, {}}};
     for (const auto i : body) {
       const auto& statement = program_.statements[i];
-      each_call(statement, i, [&](std::uint32_t callee) { raise(heights_[callee]); });
+      each_call(statement, i,
+                [&](std::uint32_t callee) { open.back().inside.add(inside_[callee]); });
       if (is_loop(statement.kind)) {
-        open.push_back({i, false, 0});
+        open.push_back({i, false, {}});
       } else if (statement.opener != none && statement.opener == open.back().statement) {
-        const auto loop = open.back();
+        const auto loop = std::move(open.back());
         open.pop_back();
-        raise(close(loop));
+        open.back().inside.add(close(loop));
       } else if (statement.kind == Kind::Exit) {
         open.back().left = true;
       } else if (statement.kind == Kind::Return) {
@@ -234,17 +242,26 @@ private:
             loop.left = true;
       }
     }
-    return open.front().height;
+    return std::move(open.front().inside);
   }
 
-  std::uint32_t close(const OpenLoop& loop) {
-    const auto kind = program_.statements[loop.statement].kind;
-    const bool counts = kind == Kind::For || kind == Kind::RepeatTimes;
+  /// Makes a loop the robot's own, where its `next` would find it: a `for` with the variable of an
+  /// open loop takes the place of that loop.
+  Inside close(const OpenLoop& loop) {
+    const auto& statement = program_.statements[loop.statement];
+    const bool counts = statement.kind == Kind::For || statement.kind == Kind::RepeatTimes;
     const auto most = static_cast<std::uint32_t>(spec::value_of(spec::Limit::ForDepth));
-    if (!counts || loop.left || loop.height >= most)
-      return loop.height;
+    const auto variable =
+        statement.kind == Kind::For
+            ? names_.of_node[program_.items[statement.items_begin].value] // its place
+            : none;
+    auto inside = loop.inside;
+    const bool again = variable != none && inside.counted.count(variable) != 0;
+    if (!counts || loop.left || inside.height >= most || again)
+      return inside;
     plan_.native[loop.statement] = true;
-    return loop.height + 1;
+    inside.add({inside.height + 1, {variable}});
+    return inside;
   }
 
   std::uint32_t label_of(const Statement& jump, const std::vector<std::uint32_t>& body) const {
@@ -263,7 +280,7 @@ private:
   std::vector<std::uint32_t> cost_;
   std::vector<std::uint32_t> sites_;
   std::vector<std::size_t> nested_;
-  std::vector<std::uint32_t> heights_;
+  std::vector<Inside> inside_; ///< of each routine
 };
 
 } // namespace

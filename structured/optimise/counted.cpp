@@ -39,8 +39,8 @@ private:
     named_ = tidy(code_);
     at_ = lines_of_labels(code_);
     for (std::uint32_t i = 0; i < code_.lines.size(); ++i)
-      if (auto loop = counted_by(i); loop && counts_alone(*loop) && can_be_left(*loop) &&
-                                     depth_with(*loop) <= spec::value_of(spec::Limit::ForDepth)) {
+      if (auto loop = counted_by(i);
+          loop && counts_alone(*loop) && can_be_left(*loop) && is_kept_open(*loop)) {
         write(*loop);
         return true;
       }
@@ -177,8 +177,19 @@ private:
     return is(n, LineKind::Label) && (is(i, LineKind::If) || is(i, LineKind::Goto));
   }
 
-  /// How many loops of the robot are open at once at most, with this one.
-  std::int64_t depth_with(const Loop& loop) const {
+  /// Whether the robot keeps a loop open: a `for` with the same variable would take its place.
+  bool is_kept_open(const Loop& loop) const {
+    const auto counts = [&](const CodeLine& line) {
+      return identity_(line.variable) == identity_(loop.variable);
+    };
+    return depth_with(loop, [](const CodeLine&) { return true; }) <=
+               spec::value_of(spec::Limit::ForDepth) &&
+           depth_with(loop, counts) == 1;
+  }
+
+  /// How many loops of the robot are open at once at most, with this one, of those that count.
+  template <typename Counts>
+  std::int64_t depth_with(const Loop& loop, Counts counts) const {
     std::vector<std::int64_t> above(code_.routines.size(), 0); // open where a routine is called
     std::int64_t deepest = 0;
     for (std::size_t round = 0; round < above.size(); ++round) {
@@ -186,11 +197,13 @@ private:
       for (std::uint32_t i = 0; i < code_.lines.size(); ++i) {
         const auto& line = code_.lines[i];
         auto& here = open[line.routine];
-        here += line.kind == LineKind::For || i == loop.begin ? 1 : 0;
+        const bool begins = line.kind == LineKind::For && counts(line);
+        const bool ends = line.kind == LineKind::Next && line.step != 0 && counts(line);
+        here += begins || i == loop.begin ? 1 : 0;
         deepest = std::max(deepest, here);
         if (const auto callee = callee_of(line); callee != none)
           above[callee] = std::max(above[callee], here);
-        here -= (line.kind == LineKind::Next && line.step != 0) || i == loop.test ? 1 : 0;
+        here -= ends || i == loop.test ? 1 : 0;
       }
     }
     return deepest;

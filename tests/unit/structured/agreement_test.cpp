@@ -149,6 +149,18 @@ TEST(Agreement, IndicesThatAreReadNoMore) {
     compare_text(body + "sub say(p)\n print p / 3, 4\nend sub\n", 1);
 }
 
+/// A `for` with the variable of an open loop takes the place of that loop on the robot.
+TEST(Agreement, LoopsThatShareAVariable) {
+  for (const std::string body : {
+           "for i = 1 to 3\n square\nnext\n",
+           "for i = 1 to 3\n square\n print i\nnext\nsquare\n",
+           "for i = 1 to 3\n i = 1\n while i <= 3\n print i\n i += 1\n end while\nnext\n",
+           "for i = 1 to 9\n for j = 1 to 2\n square\n next\n i += 1\nnext\n",
+       })
+    compare_text(
+        body + "print i\nsub square\n for i = 1 to 4\n print \"side\", i\n next\nend sub\n", 1);
+}
+
 /// A call where nothing comes goes, and with the last one the sub.
 TEST(Agreement, CallsWhereNothingComes) {
   const std::string start = "input a, 5ms, 3\ninput b, 5ms, 1\n";

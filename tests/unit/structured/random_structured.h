@@ -261,7 +261,14 @@ private:
     return text + (chance(0.3) ? ";" : "");
   }
 
-  std::string counter() { return "i" + std::to_string(loops_) + "_" + std::to_string(routine_); }
+  std::string counter() { return own("i"); }
+
+  /// A name for a loop of its own, or, where all is short, one that everybody has.
+  std::string own(const std::string& begin) {
+    if (style_ == Style::Short && chance(0.4))
+      return names[upto(2)];
+    return begin + std::to_string(loops_) + "_" + std::to_string(routine_);
+  }
 
   void statement(int depth) {
     if (style_ == Style::Short && depth < 5 && chance(0.4))
@@ -378,7 +385,7 @@ private:
   }
 
   void endless(int depth) {
-    const auto name = "n" + std::to_string(loops_) + "_" + std::to_string(routine_);
+    const auto name = own("n");
     line(depth, name + " = 0");
     line(depth, "loop");
     line(depth + 1, name + " += 1");
@@ -406,7 +413,7 @@ private:
 
   /// `while` and `repeat … until` that count.
   void bounded_loop(int depth) {
-    const auto name = "w" + std::to_string(loops_) + "_" + std::to_string(routine_);
+    const auto name = own("w");
     line(depth, name + " = " + std::to_string(upto(4)));
     const auto test = name + (chance(0.5) ? " < " : " <= ") + std::to_string(1 + upto(4));
     if (chance(0.5)) {
@@ -538,7 +545,7 @@ private:
   }
 
   void count_by_hand(int depth) {
-    const auto name = "h" + std::to_string(loops_) + "_" + std::to_string(routine_);
+    const auto name = own("h");
     const bool down = chance(0.4);
     const auto step = std::to_string(1 + (chance(0.2) ? upto(3) : 0));
     const auto count = name + (down ? " -= " : " += ") + step;
