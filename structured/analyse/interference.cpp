@@ -13,6 +13,36 @@ Interference::Interference(const Code& code)
     used[v] = code.variables[v].kept;
   for (std::uint32_t b = 0; b < flow_.blocks.size(); ++b)
     read_block(b);
+  part_loops();
+}
+
+void Interference::part_loops() {
+  VariableSets counted(code_.routines.size(), code_.variables.size()); // with what they call
+  for (const auto& line : code_.lines)
+    if (line.kind == LineKind::For)
+      insert(counted[line.routine], line.variable);
+  for (bool changed = true; changed;) {
+    changed = false;
+    for (const auto& line : code_.lines)
+      if (const auto callee = callee_of(line); callee != none)
+        changed = unite(counted[line.routine], counted[callee]) || changed;
+  }
+  std::vector<const CodeLine*> open; // the `for`s around a line
+  for (const auto& line : code_.lines) {
+    const auto callee = callee_of(line);
+    for (const auto* loop : open) {
+      if (line.kind == LineKind::For)
+        add_edge(loop->variable, line.variable);
+      if (callee != none)
+        each_member(counted[callee], [&](std::uint32_t v) { add_edge(loop->variable, v); });
+    }
+    if (line.kind == LineKind::For)
+      open.push_back(&line);
+    else if (line.kind == LineKind::Next)
+      std::erase_if(open, [&](const CodeLine* loop) {
+        return loop->label == line.label && line.step != 0; // 0: on a way out of the loop
+      });
+  }
 }
 
 void Interference::read_block(std::uint32_t b) {

@@ -29,6 +29,10 @@ private:
   std::vector<std::uint64_t> live_;
 
   void read_block(std::uint32_t b);
+
+  /// Keeps the variables of loops apart that are open at once, also where a value of the outer one
+  /// is not needed: a `for` with the variable of an open loop takes the place of that loop.
+  void part_loops();
   void measure(std::uint32_t line, const std::vector<std::uint64_t>& live);
   void add_edges(const CodeLine& line, std::uint32_t variable, std::span<const std::uint64_t> live);
   void add_edge(std::uint32_t a, std::uint32_t b);

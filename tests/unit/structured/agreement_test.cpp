@@ -236,6 +236,8 @@ TEST(Agreement, TestsThatHaveBeenMade) {
 TEST(Agreement, ProgramsThatHaveFoundSomething) {
   for (const std::uint64_t seed : {5472U, 10147U, 26301U, 181497U})
     compare(seed);
+  for (const std::uint64_t seed : {99U, 26927U})
+    compare(seed, Style::Short);
 }
 
 /// The variables that somebody looks at hold at the end what the text says, where it has one.
