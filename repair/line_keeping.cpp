@@ -69,6 +69,25 @@ bool LineRepair::sets_name() const {
          has_word(names_, tokens[0].text) && !has_word(judge_.words, tokens[0].text);
 }
 
+/// Whether a line that leaves something still does: without it, a loop is endless. In a `select`
+/// there is nothing to leave.
+bool LineRepair::keeps_leaving(std::string_view lines) const {
+  const auto leaving =
+      std::find_if(parts_.tokens.begin(), parts_.tokens.end(), [](const Token& token) {
+        return holds("break return continue exit", token.text);
+      });
+  if (leaving == parts_.tokens.end() || misplaced_ || judge_.language == Language::Test)
+    return true;
+  const auto kept = tokens_of(lines, judge_.language);
+  const bool leaves = std::any_of(kept.begin(), kept.end(), [](const Token& token) {
+    return holds("exit return continue goto abort", token.text);
+  });
+  if (leaving->is("break") && leaving == parts_.tokens.begin() && around_.closer == "end select")
+    return !leaves;
+  const bool ends = !kept.empty() && kept.back().is("end"); // `exit()`, `return 0` of a program
+  return leaves || (ends && !leaving->is("break") && !leaving->is("continue"));
+}
+
 /// Whether a unit became a condition of its own: `if who = 0 people then`.
 bool LineRepair::adds_condition(std::string_view statement) const {
   if (has_token(parts_.tokens, "and"))

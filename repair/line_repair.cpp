@@ -82,6 +82,7 @@ std::vector<Accepted> LineRepair::find(const Diagnostic& finding) {
   const auto& tokens = parts_.tokens;
   if (tokens.size() > most_tokens)
     return {};
+  misplaced_ = finding.rule->id == "misplaced-statement";
   if (judge_.language == Language::Macro && !tokens.empty() && tokens[0].is_number())
     name_command();
   if (best_)
@@ -344,7 +345,8 @@ std::size_t LineRepair::errors_of(const std::vector<Diagnostic>& findings,
 std::optional<Accepted> LineRepair::attempt_line(const std::string& text, std::string_view note,
                                                  bool sure, bool keep) {
   const bool goes_on = text.ends_with(',') && !trim(line_).ends_with(','); // nothing follows
-  if (text == line_ || goes_on || checks_ >= most_checks_ || !keeps_texts(text) || !parses(text))
+  if (text == line_ || goes_on || checks_ >= most_checks_ || !keeps_texts(text) ||
+      !keeps_leaving(text) || !parses(text))
     return std::nullopt;
   ++checks_;
   auto changed = context_.above;
