@@ -37,6 +37,35 @@ void LineRepair::by_initials() {
     attempt(join(tokens), {}, false);
 }
 
+/// `RGB red delay 1s`: statements behind each other, each on a line of its own.
+void LineRepair::one_by_one() {
+  const auto& tokens = parts_.tokens;
+  const bool numbered = judge_.language == Language::Basic;
+  if ((!numbered && judge_.language != Language::Structured) || has_token(tokens, "then"))
+    return;
+  const auto begins = [&](Tokens::const_iterator at) {
+    const bool sets = tokens.end() - at > 2 && at->is_word() && (at + 1)->is("=");
+    return sets || (has_word(judge_.words, at->text) &&
+                    !holds("repeat until while loop for next if else elseif select case sub "
+                           "function end exit continue return goto gosub to step then",
+                           at->text));
+  };
+  std::string lines;
+  auto begin = tokens.begin();
+  for (auto at = begin + 1; at <= tokens.end(); ++at) {
+    const Tokens part(begin, at);
+    if ((at != tokens.end() && !begins(at)) || !begins(begin) ||
+        !judge_.parses(parts_.head + join(part)))
+      continue;
+    lines += (lines.empty() ? "" : "\n") + join(part);
+    begin = at;
+    if (at == tokens.end())
+      break;
+  }
+  if (begin == tokens.end() && lines.find('\n') != std::string::npos)
+    attempt(lines, {}, true);
+}
+
 /// `i` for `next i`, and `count 0` for `count = 0`.
 void LineRepair::by_words_left_out() {
   const auto& tokens = parts_.tokens;

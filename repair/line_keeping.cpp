@@ -26,6 +26,14 @@ bool LineRepair::keeps_meaning(std::string_view statement) const {
   const auto& tokens = parts_.tokens;
   if (has_token(tokens, "then") && !tokens.back().is("then") && statement.ends_with(" then"))
     return false; // what is to be done was said
+  const auto joined = std::find_if(tokens.begin(), tokens.end(),
+                                   [](const Token& token) { return token.is("and"); });
+  const bool asks_twice = !tokens.empty() && holds("if elseif while until", tokens[0].text) &&
+                          statement.starts_with(tokens[0].text) && tokens.end() - joined > 3;
+  if (asks_twice && !has_token(tokens_of(statement, judge_.language), "and"))
+    return false; // half of what is asked for
+  if (statement.starts_with("print \"") && calls_with_name())
+    return false; // no text
   if (statement.find("\ncase ") != std::string_view::npos)
     return false; // a case without lines of its own
   const bool one_word = tokens.size() == 1 && is_foreign(tokens[0].text);
@@ -41,6 +49,16 @@ bool LineRepair::keeps_meaning(std::string_view statement) const {
       }))
     return false; // the opposite
   return keeps_names(statement) && !adds_condition(statement);
+}
+
+/// Whether something is called with a name of the program: `len(a)`.
+bool LineRepair::calls_with_name() const {
+  const auto& tokens = parts_.tokens;
+  for (std::size_t i = 0; i + 3 < tokens.size(); ++i)
+    if (tokens[i].is_word() && tokens[i + 1].is("(") && !tokens[i + 1].gap &&
+        has_word(names_, tokens[i + 2].text) && (tokens[i + 3].is(")") || tokens[i + 3].is(",")))
+      return true;
+  return false;
 }
 
 /// Whether the operands of a command are still there: a line with numbers is not left out, and a

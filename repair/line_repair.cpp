@@ -101,6 +101,10 @@ std::vector<Accepted> LineRepair::find(const Diagnostic& finding) {
     attempt("test " + join({tokens[1]}), {}, false); // `comprobar "goes home"`
   if (judge_.language == Language::Structured)
     own_words();
+  if (!tokens.empty())
+    one_by_one();
+  if (best_)
+    return offers();
   const auto start = join(parts_.tokens);
   // What another language needs and this one does not is not all that the line says there.
   const auto own = fixed(finding);

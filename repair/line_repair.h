@@ -121,6 +121,7 @@ private:
   bool attempt(const std::string& statement, std::string_view note, bool sure);
   bool parses(std::string_view lines) const;
   bool keeps_texts(std::string_view lines) const;
+  bool calls_with_name() const;
   bool keeps_leaving(std::string_view lines) const;
   std::size_t errors_of(const std::vector<Diagnostic>& findings, std::string_view text) const;
   std::optional<Accepted> attempt_line(const std::string& text, std::string_view note, bool sure,
@@ -141,6 +142,7 @@ private:
   void several_lines(const std::string& statement);
   void by_gist();
   void among_unknown();
+  void one_by_one();
   void by_words_left_out();
   std::optional<Accepted> in_milliseconds();
   void by_initials();
@@ -163,7 +165,7 @@ private:
   std::string like_;            ///< the sub whose name means what the first word says
   std::string meant_;           ///< the sub that a call of an unknown one can only mean
   bool is_target_;              ///< something jumps here
-  bool misplaced_ = false; ///< it has nothing to leave
+  bool misplaced_ = false;      ///< it has nothing to leave
   bool guessed_ = false;        ///< a sign or a word was put in that lacks
   std::vector<Candidate> near_; ///< by one change, the cheapest first
   std::unordered_set<std::string> seen_;
