@@ -137,8 +137,10 @@ tl::expected<void, Failure> read_macro_bytes(Input& input, Content content) {
 } // namespace
 
 std::optional<Content> content_of(std::string_view name, std::string_view language) {
-  const auto ending = std::find_if(endings.begin(), endings.end(),
-                                   [&](const FileEnding& row) { return name.ends_with(row.text); });
+  const auto ending = std::find_if(endings.begin(), endings.end(), [&](const FileEnding& row) {
+    return name.size() >= row.text.size() &&
+           equal_words(name.substr(name.size() - row.text.size()), row.text);
+  });
   const bool macro_bytes = ending != endings.end() && (ending->content == Content::MacroBody ||
                                                        ending->content == Content::MacroImage);
   if (language == "basic")

@@ -44,7 +44,7 @@ void UnknownNames::report(const Node& node, bool needs_declaration) {
       node.span.begin,
       node.span.begin +
           static_cast<std::uint32_t>(program_.name(static_cast<std::uint32_t>(node.value)).size())};
-  if (report_foreign(span, repair::Where::Inside))
+  if (span.size() > 1 && report_foreign(span, repair::Where::Inside)) // a letter is a name
     return;
   if (find_colour(program_.text_of(span))) {
     add(rules::UnknownName, span, fmt::format("`{}` is a colour", program_.text_of(span)),
