@@ -57,6 +57,7 @@ private:
       return;
     const auto rounds = (std::int64_t{*last} - *first) / *step + 1;
     std::int64_t reads = 0;
+    const StatementNode* let = nullptr; // the last that sets the variable
     for (auto i = begin + 1; i < size_ && i - begin < longest_loop; ++i) {
       if (!is_plain(i) || flow_.code[i].target)
         return;
@@ -66,12 +67,15 @@ private:
           check_empty(statement, loop, rounds);
         if (reads > 0 && rounds > 0)
           check_data(begin, i, read_above(begin) + rounds * reads);
+        if (let != nullptr)
+          check_reset(*let, statement, *last, *step);
         return;
       }
       if (inside.kind == Statement::Read)
         reads += static_cast<std::int64_t>(program_.items_of(inside).size());
-      if (inside.kind == Statement::Let)
-        check_reset(inside, statement, *last, *step);
+      for (const auto& item : program_.items_of(inside))
+        if (item.kind == ItemKind::Letter && item.value == loop.variable.value)
+          let = inside.kind == Statement::Let ? &inside : nullptr;
       if (spec::info(inside.kind).after != spec::After::Falls &&
           spec::info(inside.kind).after != spec::After::Waits)
         return;
@@ -171,11 +175,8 @@ private:
 
   void check_reset(const StatementNode& inside, const StatementNode& statement, std::int32_t last,
                    std::int32_t step) {
-    const auto let = program_.as<LetView>(inside);
-    const auto loop = program_.as<ForView>(statement);
-    const auto value = number(let.expression);
-    if (let.variable.kind != ItemKind::Letter || let.variable.value != loop.variable.value ||
-        !value)
+    const auto value = number(program_.as<LetView>(inside).expression);
+    if (!value)
       return;
     const auto next = std::int64_t{*value} + step;
     if (step > 0 ? next > last : next < last)
