@@ -59,21 +59,6 @@ private:
     }
   }
 
-  template <typename Visit>
-  void each_call(const Statement& statement, std::uint32_t i, Visit visit) const {
-    const auto routine_of = [&](std::uint32_t symbol) {
-      return symbol == none ? 0 : names_.symbols[symbol].routine;
-    };
-    if (statement.kind == Kind::Call && routine_of(names_.of_statement[i]) != 0)
-      visit(routine_of(names_.of_statement[i]));
-    for (const auto& item : program_.items_of(statement))
-      if (item.kind == ItemKind::Expression || item.kind == ItemKind::Place ||
-          item.kind == ItemKind::Character)
-        for (auto n = program_.nodes[item.value].first; n <= item.value; ++n)
-          if (program_.nodes[n].kind == NodeKind::Call && routine_of(names_.of_node[n]) != 0)
-            visit(routine_of(names_.of_node[n]));
-  }
-
   void count_sites() {
     own_cost_.assign(names_.routines.size(), 0);
     for (const auto i : program_.order) {
@@ -81,7 +66,7 @@ private:
       if (!plan_.needed[routine])
         continue;
       const auto& statement = program_.statements[i];
-      each_call(statement, i, [&](std::uint32_t callee) { ++sites_[callee]; });
+      each_call(program_, names_, i, [&](std::uint32_t callee, Span) { ++sites_[callee]; });
       own_cost_[routine] += cost_of(statement);
     }
   }
@@ -221,8 +206,8 @@ private:
     std::vector<OpenLoop> open{{none, false, {}}};
     for (const auto i : body) {
       const auto& statement = program_.statements[i];
-      each_call(statement, i,
-                [&](std::uint32_t callee) { open.back().inside.add(inside_[callee]); });
+      each_call(program_, names_, i,
+                [&](std::uint32_t callee, Span) { open.back().inside.add(inside_[callee]); });
       if (is_loop(statement.kind)) {
         open.push_back({i, false, {}});
       } else if (statement.opener != none && statement.opener == open.back().statement) {

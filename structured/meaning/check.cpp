@@ -162,22 +162,9 @@ void check(Program& program, const Names& names, const compiler::Target& target)
 
 std::vector<std::vector<std::uint32_t>> calls_of(const Program& program, const Names& names) {
   std::vector<std::vector<std::uint32_t>> calls(names.routines.size());
-  const auto add = [&](std::uint32_t from, std::uint32_t symbol) {
-    if (symbol == none || names.symbols[symbol].routine == 0)
-      return;
-    calls[from].push_back(names.symbols[symbol].routine);
-  };
-  for (const auto i : program.order) {
-    const auto& statement = program.statements[i];
-    if (statement.kind == Kind::Call)
-      add(names.routine_of[i], names.of_statement[i]);
-    for (const auto& item : program.items_of(statement))
-      if (item.kind == ItemKind::Expression || item.kind == ItemKind::Place ||
-          item.kind == ItemKind::Character)
-        for (auto n = program.nodes[item.value].first; n <= item.value; ++n)
-          if (program.nodes[n].kind == NodeKind::Call)
-            add(names.routine_of[i], names.of_node[n]);
-  }
+  for (const auto i : program.order)
+    each_call(program, names, i,
+              [&](std::uint32_t routine, Span) { calls[names.routine_of[i]].push_back(routine); });
   for (auto& list : calls) {
     std::sort(list.begin(), list.end());
     list.erase(std::unique(list.begin(), list.end()), list.end());

@@ -4,6 +4,8 @@
 #include "base/text/text.h"
 #include "repair/idioms.h"
 
+#include <map>
+
 namespace orb::structured {
 
 void Checker::check_jumps() {
@@ -168,6 +170,47 @@ void Checker::check_loops() {
       check_restart(i);
     }
     check_exchange(i);
+  }
+  check_called_loops();
+}
+
+void Checker::check_called_loops() {
+  const auto calls = calls_of(program_, names_);
+  // The loop of each routine, or of what it calls, by the variable that it counts with.
+  std::vector<std::map<std::uint32_t, std::uint32_t>> loops(calls.size());
+  for (const auto i : program_.order)
+    if (at(i).kind == Kind::For)
+      loops[names_.routine_of[i]].try_emplace(variable_of(at(i)), i);
+  for (bool changed = true; changed;) {
+    changed = false;
+    for (std::size_t r = 0; r < calls.size(); ++r) {
+      const auto before = loops[r].size();
+      for (const auto callee : calls[r])
+        loops[r].insert(loops[callee].begin(), loops[callee].end());
+      changed = changed || loops[r].size() != before;
+    }
+  }
+  for (const auto i : program_.order) {
+    const auto counter = at(i).kind == Kind::For ? variable_of(at(i)) : none;
+    bool said = counter == none || at(i).next == none;
+    for (auto n = i + 1; !said && n < at(i).next; ++n)
+      each_call(program_, names_, n, [&](std::uint32_t routine, Span span) {
+        const auto inner = loops[routine].find(counter);
+        if (said || inner == loops[routine].end())
+          return;
+        said = true;
+        const auto called = [&](std::uint32_t one) {
+          return program_.name(names_.symbols[names_.routines[one].symbol].name);
+        };
+        const auto name = program_.name(names_.symbols[counter].name);
+        auto& d = report(
+            compiler::rules::LoopVariableSet, span,
+            fmt::format("`{}` sets `{}`, with which this loop counts", called(routine), name),
+            fmt::format("write `local {}` in `{}`", name,
+                        called(names_.routine_of[inner->second])));
+        d.notes.push_back({at(i).span, "the loop"});
+        d.notes.push_back({at(inner->second).span, "the other loop"});
+      });
   }
 }
 

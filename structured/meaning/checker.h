@@ -205,6 +205,9 @@ private:
   /// A loop whose counter is an index in each turn, and not always that of an element.
   void check_counter(std::uint32_t i);
 
+  /// A loop that calls what counts with its variable, too.
+  void check_called_loops();
+
   // ---- sums
 
   /// A comparison with a number; nothing of any other node.
