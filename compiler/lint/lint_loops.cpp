@@ -259,37 +259,44 @@ private:
     }
   }
 
-  /// Whether every way from here leads to the `next` of a loop, or back into the loop.
+  /// Whether what goes on here comes to the `next` of a loop or back into the loop, and nowhere
+  /// else to leave it: what it calls only returns.
   bool comes_back(std::uint32_t from, const Pair& pair) const {
-    constexpr std::size_t most = 64; // of ways that are followed: what is longer is not looked at
-    std::vector<std::uint32_t> ways{from};
+    struct Way {
+      std::uint32_t code;
+      bool called;
+      bool operator==(const Way&) const = default;
+    };
+    constexpr std::size_t most = 64; // ways that are followed: what is longer is not looked at
+    std::vector<Way> ways{{from, false}};
     bool back = false;
     for (std::size_t i = 0; i < ways.size(); ++i) {
-      const auto at = ways[i] < size_ ? ahead_[ways[i]] : none;
+      const auto way = ways[i];
+      const auto at = way.code < size_ ? ahead_[way.code] : none;
       if (at == none || ways.size() > most)
         return false;
       const auto& part = parts_[at];
       const auto& code = flow_.code[part.code];
       const bool about_loop = part.effect != Effect::Nothing && part.variable == pair.variable;
-      if (about_loop && part.effect == Effect::Closes) {
+      if (about_loop && part.effect == Effect::Closes && !way.called) {
         back = true;
         continue;
       }
       const auto jumps = flow_.jumps_of(code);
-      if (about_loop || part.effect == Effect::Unsure || part.returns || code.ends ||
-          (!code.falls && jumps.empty()))
+      const bool stops = !code.falls && jumps.empty();
+      if (about_loop || part.effect == Effect::Unsure || (part.returns && !way.called) ||
+          (code.ends && !part.returns) || (stops && !part.returns))
         return false;
-      const auto go = [&](std::uint32_t to) {
-        if (to > pair.begin && to <= pair.end)
+      const auto go = [&](Way next) {
+        if (!next.called && next.code > pair.begin && next.code <= pair.end)
           back = true;
-        else if (std::find(ways.begin(), ways.end(), to) == ways.end())
-          ways.push_back(to);
+        else if (std::find(ways.begin(), ways.end(), next) == ways.end())
+          ways.push_back(next);
       };
       for (const auto& jump : jumps)
-        if (!jump.call)
-          go(jump.to);
+        go({jump.to, way.called || jump.call});
       if (code.falls)
-        go(part.code + 1);
+        go({part.code + 1, way.called});
     }
     return back;
   }

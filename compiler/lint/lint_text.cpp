@@ -159,9 +159,11 @@ void TextPass::check_duplicates() {
     add_note(d, original.number_span, "the first line with that number");
     if (++found > most_fixes)
       continue;
-    if (const auto free = free_number(row.line))
+    if (const auto free = free_number(row.line)) {
+      offered_.push_back(*free);
       d.fix =
           single_fix(fmt::format("renumber to {}", *free), line.number_span, std::to_string(*free));
+    }
   }
 }
 
@@ -176,13 +178,17 @@ std::optional<std::uint32_t> TextPass::free_number(std::uint32_t index) {
       above = program_.lines[i].number;
       break;
     }
+  const auto is_free = [&](std::uint32_t n) {
+    return flow_.find(n) == nullptr && !is_target(n) &&
+           std::find(offered_.begin(), offered_.end(), n) == offered_.end();
+  };
   constexpr std::uint32_t tries = 100; // a text as crowded as that is renumbered instead
   const auto middle = above - below > 20 ? below + 10 : below + (above - below) / 2;
   for (std::uint32_t n = middle; n < above && n < middle + tries; ++n)
-    if (n > below && flow_.find(n) == nullptr && !is_target(n))
+    if (n > below && is_free(n))
       return n;
   for (std::uint32_t n = below + 1; n < middle && n < below + tries; ++n)
-    if (flow_.find(n) == nullptr && !is_target(n))
+    if (is_free(n))
       return n;
   return std::nullopt;
 }

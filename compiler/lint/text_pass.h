@@ -141,6 +141,7 @@ private:
   std::vector<std::uint32_t> targets_; ///< line numbers that something names, ascending
   bool targets_sorted_ = false;
   bool blank_missing_ = false; ///< on this line, and reported
+  std::vector<std::uint32_t> offered_; ///< numbers for lines whose own are taken
 };
 
 } // namespace orb::compiler
