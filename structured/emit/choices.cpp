@@ -597,29 +597,39 @@ private:
   void end_at_once() {
     tidy(code_);
     const auto at = lines_of_labels(code_);
-    for (auto& line : code_.lines) {
+    const auto lead_on = [&](CodeLine& line, bool in_branch) {
       if (line.kind != LineKind::Goto || at[line.label] == none)
-        continue;
+        return;
       const auto target = past_labels(at[line.label]);
       if (target == code_.lines.size())
-        continue;
+        return;
       const auto& last = code_.lines[target];
-      if (last.kind != LineKind::Return && last.kind != LineKind::Goto && !ends_program(last))
-        continue;
+      if (last.kind != LineKind::Return && last.kind != LineKind::Goto &&
+          (!ends_program(last) || (in_branch && !fits_branch(last))))
+        return;
       const auto origin = line.origin;
       line = last;
       line.origin = origin;
+    };
+    for (auto& line : code_.lines) {
+      lead_on(line, false);
+      if (line.kind == LineKind::Choice)
+        for (const auto branch : {line.term, line.end})
+          if (branch != none)
+            lead_on(code_.branches[branch], true);
     }
   }
 
-  /// Lines that nothing leads to since the jumps to them became what they led to.
+  /// Lines that nothing leads to since the jumps to them became what they led to, and jumps over
+  /// such lines.
   bool remove_unreached() {
     tidy(code_);
     bool removed = false;
     bool reached = true;
-    for (auto& line : code_.lines) {
+    for (std::uint32_t i = 0; i < code_.lines.size(); ++i) {
+      auto& line = code_.lines[i];
       reached = reached || line.kind == LineKind::Label;
-      if (!reached) {
+      if (!reached || (line.kind == LineKind::Goto && is_label_there(i + 1, line.label))) {
         line.kind = LineKind::Nothing;
         removed = true;
       } else if (line.kind != LineKind::Nothing) {
