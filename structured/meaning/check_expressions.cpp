@@ -1,4 +1,6 @@
 #include "structured/meaning/checker.h"
+
+#include "base/duration.h"
 #include "structured/text/messages.h"
 #include "structured/text/words.h"
 
@@ -386,8 +388,19 @@ Diagnostic* Checker::check_range(const Item& part, std::string_view word,
   else if (negative && parameter.name != "speed" &&
            -std::int64_t{value->value} <= parameter.greatest)
     meant = text.substr(1);
-  // So many seconds are milliseconds.
+  // A little more than fits waits several times; so many seconds are milliseconds.
   constexpr std::int32_t second = 1000;
+  constexpr std::int64_t most_lines = 3;
+  const auto kind = program_.nodes[part.value].kind;
+  const auto parts = value->value / parameter.greatest + 1;
+  const bool waits = word == spec::info(spec::Statement::Delay).word && parts > 1 &&
+                     (kind == NodeKind::Number || kind == NodeKind::Duration);
+  if (waits && parts <= most_lines) {
+    const auto each = value->value / static_cast<std::int32_t>(parts);
+    d.help = fmt::format("write `{} {}` on {} lines", word,
+                         kind == NodeKind::Number ? std::to_string(each) : time_text(each), parts);
+    return &d;
+  }
   if (meant.empty() && text.ends_with('s') && value->value / second <= parameter.greatest &&
       text == fmt::format("{}s", value->value / second))
     meant = fmt::format("{}ms", value->value / second);

@@ -4,9 +4,12 @@
 
 namespace orb::structured {
 
-/// What happens to the ways of a program: none changes but for tests that are decided; decided ones
-/// lead past their tests; the same, and where nothing else changes, ways are split.
-enum class Ways : std::uint8_t { AsTheyAre, Decided, Split };
+/// What happens to the ways of a program.
+enum class Ways : std::uint8_t {
+  AsTheyAre, ///< none changes but for tests that are decided
+  Decided,   ///< also, jumps lead past tests that are decided for them
+  Split      ///< also, where nothing else changes, ways are split
+};
 
 /// Computes what values variables can have at each line, and uses it: tests with a certain outcome
 /// go, variables that are always a known number become that number, divisions and indices that
