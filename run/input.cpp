@@ -2,6 +2,7 @@
 
 #include "assembler/assemble.h"
 #include "assembler/lint/lint.h"
+#include "base/text/text.h"
 #include "compiler/check.h"
 #include "compiler/text/parse.h"
 #include "report/course.h"

@@ -4,6 +4,8 @@
 #include "structured/text/messages.h"
 #include "structured/text/words.h"
 
+#include <algorithm>
+
 namespace orb::structured {
 namespace {
 
