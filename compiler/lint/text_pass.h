@@ -140,7 +140,7 @@ private:
   Findings& findings_;
   std::vector<std::uint32_t> targets_; ///< line numbers that something names, ascending
   bool targets_sorted_ = false;
-  bool blank_missing_ = false; ///< on this line, and reported
+  bool blank_missing_ = false;         ///< on this line, and reported
   std::vector<std::uint32_t> offered_; ///< numbers for lines whose own are taken
 };
 
