@@ -90,8 +90,7 @@ std::vector<std::uint32_t> elements_of(const Compiled& compiled, const Statement
   const auto& nodes = compiled.program.nodes;
   std::vector<std::uint32_t> elements;
   for (const auto& item : compiled.program.items_of(statement))
-    if (item.kind == ItemKind::Expression || item.kind == ItemKind::Place ||
-        item.kind == ItemKind::Character)
+    if (item.has_nodes())
       for (auto n = nodes[item.value].first; n <= item.value; ++n)
         if (nodes[n].kind == NodeKind::Element && compiled.names.of_node[n] != none)
           elements.push_back(n);

@@ -21,8 +21,7 @@ void each_call(const Program& program, const Names& names, std::uint32_t stateme
   if (here.kind == Kind::Call)
     say(names.of_statement[statement], here.name_span);
   for (const auto& item : program.items_of(here))
-    if (item.kind == ItemKind::Expression || item.kind == ItemKind::Place ||
-        item.kind == ItemKind::Character)
+    if (item.has_nodes())
       for (auto n = program.nodes[item.value].first; n <= item.value; ++n)
         if (program.nodes[n].kind == NodeKind::Call)
           say(names.of_node[n], program.nodes[n].span);

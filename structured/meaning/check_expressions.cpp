@@ -66,8 +66,7 @@ void Checker::note_timer(const Statement& statement) {
 
 void Checker::check_expressions(const Statement& statement) {
   for (const auto& part : program_.items_of(statement)) {
-    if (part.kind != ItemKind::Expression && part.kind != ItemKind::Place &&
-        part.kind != ItemKind::Character)
+    if (!part.has_nodes())
       continue;
     const auto root = part.value;
     for (auto n = program_.nodes[root].first; n <= root; ++n)
@@ -136,8 +135,7 @@ std::optional<std::string> Checker::with_if(const Statement& statement, std::uin
            (span.begin < condition.begin || span.end > condition.end);
   };
   for (const auto& part : program_.items_of(statement))
-    if (part.kind == ItemKind::Expression || part.kind == ItemKind::Place ||
-        part.kind == ItemKind::Character)
+    if (part.has_nodes())
       for (auto n = program_.nodes[part.value].first; n <= part.value; ++n)
         if (is_elsewhere(n))
           return std::nullopt;

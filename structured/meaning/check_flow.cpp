@@ -396,8 +396,7 @@ void Checker::check_counter(std::uint32_t i) {
     if (statement.depth != loop.depth + 1)
       continue;
     for (const auto& part : program_.items_of(statement)) {
-      if (part.kind != ItemKind::Expression && part.kind != ItemKind::Place &&
-          part.kind != ItemKind::Character)
+      if (!part.has_nodes())
         continue;
       for (auto node = program_.nodes[part.value].first + 1; node <= part.value; ++node) {
         if (program_.nodes[node].kind != NodeKind::Element || names_.of_node[node] == none ||

@@ -333,8 +333,7 @@ private:
                         statement.items_end - statement.items_begin < 3;
     const bool only = statement.items_end - statement.items_begin == 1;
     for (const auto& item : program_.items_of(statement)) {
-      if (item.kind != ItemKind::Expression && item.kind != ItemKind::Place &&
-          item.kind != ItemKind::Character)
+      if (!item.has_nodes())
         continue;
       const bool place = item.kind == ItemKind::Place;
       for (auto n = program_.nodes[item.value].first; n <= item.value; ++n) {

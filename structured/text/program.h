@@ -70,6 +70,11 @@ struct Item {
   ItemKind kind = ItemKind::Expression;
   std::uint32_t value = 0;
   Span span;
+
+  /// Whether `value` is the root of an expression.
+  bool has_nodes() const {
+    return kind == ItemKind::Expression || kind == ItemKind::Place || kind == ItemKind::Character;
+  }
 };
 
 enum class Kind : std::uint8_t {
