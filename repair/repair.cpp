@@ -95,7 +95,7 @@ bool is_about_writing(const Diagnostic& finding, const Source& source, const Jud
       if (edit.span.begin < span.begin || edit.span.end > span.end ||
           (edit.text.find('\n') != std::string::npos && parses_after(edit, text, span, judge)))
         return false;
-  if (finding.rule->id == "condition-as-value" && finding.span.end > span.end)
+  if (finding.span.end > span.end)
     return false; // it goes on below
   if (finding.rule->id == "test-pattern")
     return false; // what is between the slashes is another language
