@@ -54,40 +54,24 @@ Item item_of(const Async& message, ByteView packet) {
 }
 
 void Decoder::feed(ByteView bytes) {
-  if (!pending()) {
-    window_ = bytes;
-    at_ = 0;
-    return;
-  }
-  keep();
-  kept_.insert(kept_.end(), bytes.begin(), bytes.end());
-  window_ = kept_;
+  bytes_.erase(bytes_.begin(), bytes_.begin() + static_cast<std::ptrdiff_t>(at_));
+  bytes_.insert(bytes_.end(), bytes.begin(), bytes.end());
+  at_ = 0;
 }
 
 void Decoder::reset() {
-  window_ = {};
+  bytes_.clear();
   at_ = 0;
   expiry_ = Expiry::No;
-  kept_.clear();
-}
-
-/// At the front of kept_.
-void Decoder::keep() {
-  const auto rest = window_.subspan(at_);
-  if (window_.data() == kept_.data() && !kept_.empty())
-    kept_.erase(kept_.begin(), kept_.begin() + static_cast<std::ptrdiff_t>(at_));
-  else
-    kept_.assign(rest.begin(), rest.end());
-  window_ = kept_;
-  at_ = 0;
 }
 
 std::optional<Item> Decoder::next() {
+  const ByteView window = bytes_;
   Item item;
   for (auto start = at_;;) {
-    start = find_start(window_, start);
-    const auto at_end = start == window_.size();
-    const auto found = at_end ? Match::No : match(window_.subspan(start), item);
+    start = find_start(window, start);
+    const auto at_end = start == window.size();
+    const auto found = at_end ? Match::No : match(window.subspan(start), item);
     const auto given_up = found == Match::Incomplete && expiry_ == Expiry::Reported;
     if (!at_end && (found == Match::No || given_up)) {
       ++start; // this SOP1 begins nothing
@@ -95,7 +79,7 @@ std::optional<Item> Decoder::next() {
     }
     if (start > at_) {
       item = {};
-      item.raw = window_.subspan(at_, start - at_);
+      item.raw = window.subspan(at_, start - at_);
       at_ = start;
       return item;
     }
@@ -103,13 +87,11 @@ std::optional<Item> Decoder::next() {
     case Match::Whole: at_ += item.raw.size(); return item;
     case Match::Damaged: ++at_; return item;
     case Match::Incomplete:
-      if (expiry_ == Expiry::No) {
-        keep();
+      if (expiry_ == Expiry::No)
         return std::nullopt;
-      }
       expiry_ = Expiry::Reported;
       item.kind = Item::Kind::Fragment;
-      item.raw = window_.subspan(at_);
+      item.raw = window.subspan(at_);
       ++at_;
       return item;
     case Match::No: // the end of the window

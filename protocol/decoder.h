@@ -9,8 +9,8 @@ namespace orb::protocol {
 /// Which way the bytes travel: commands to the ball, answers and async messages from it.
 enum class Direction : std::uint8_t { ToBall, FromBall };
 
-/// One thing found in a stream of bytes. The views stay valid until next() or feed() is called
-/// again, and only as long as the bytes that were fed.
+/// One thing found in a stream of bytes. The views stay valid until next(), feed() or reset() is
+/// called.
 struct Item {
   enum class Kind : std::uint8_t {
     Command,
@@ -50,12 +50,8 @@ class Decoder {
 public:
   explicit Decoder(Direction direction) : direction_(direction) {}
 
-  /// Takes bytes without copying them: they must live until next() has returned nothing, or keep()
-  /// is called.
+  /// Takes a copy of the bytes.
   void feed(ByteView bytes);
-
-  /// Copies what was fed and is not consumed yet: those bytes may go.
-  void keep();
 
   /// The next item, or nothing when more bytes are needed.
   std::optional<Item> next();
@@ -66,7 +62,7 @@ public:
   void expire() { expiry_ = Expiry::Due; }
 
   /// Whether an incomplete packet is waiting for its rest.
-  bool pending() const { return at_ < window_.size(); }
+  bool pending() const { return at_ < bytes_.size(); }
 
   /// Forgets everything, as when a link is opened again.
   void reset();
@@ -83,9 +79,8 @@ private:
 
   Direction direction_;
   Expiry expiry_ = Expiry::No;
-  ByteView window_;    ///< what is being scanned: the caller's bytes, or kept_
-  std::size_t at_ = 0; ///< how far window_ has been consumed
-  Bytes kept_;         ///< an incomplete packet, and after it what was fed since
+  Bytes bytes_;        ///< fed, and not consumed before the last feed()
+  std::size_t at_ = 0; ///< how far they have been consumed
 };
 
 } // namespace orb::protocol

@@ -96,8 +96,8 @@ public:
     const auto& body = ball_->body();
     seen.pose = among_ == Among::Others ? body.world_pose() : body.pose();
     seen.way_cm = body.rolled_cm();
-    seen.motion = body.speed_setpoint() != 0 ? Sight::Motion::Driven
-                  : body.stopped()           ? Sight::Motion::Still
+    seen.motion = body.is_driven() ? Sight::Motion::Driven
+                  : body.stopped() ? Sight::Motion::Still
                                              : Sight::Motion::Rolling;
     return seen;
   }

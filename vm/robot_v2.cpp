@@ -270,6 +270,8 @@ void RobotV2::drive(ByteView data) {
   const auto go = speed == 0                                ? Go::Brake
                   : (flags & spec::v2_drive_fast_turn) != 0 ? Go::FastTurn
                                                             : Go::Drive;
+  if (robot_.sensors == spec::RobotSensors::Services) // nobody else can end raw motors
+    ball_.drive(Stabilization::On);
   ball_.drive(Roll{heading % spec::ball::full_circle, speed, go});
   drives_until_ = speed == 0 ? never : ball_.now() + spec::v2_drive_timeout;
 }

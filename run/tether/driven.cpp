@@ -8,8 +8,6 @@ namespace {
 
 /// How long the program may be behind the link: a reaction takes no longer than this.
 constexpr Duration shortest_nap = 2ms;
-/// A program that is further behind, because the computer slept, does not hurry after.
-constexpr Duration most_behind = 500ms;
 
 } // namespace
 
@@ -51,8 +49,6 @@ tl::expected<Driven::Course, Failure> Driven::step() {
       return tl::unexpected(back.error());
     return Course::GoesOn;
   }
-  if (elapsed() - live_.time() > most_behind)
-    origin_ = robot_.now() - live_.time();
   if (!live_.advance(elapsed())) {
     if (!live_.waits_for_number() || !listener_.has_more_numbers())
       return Course::Ends;
@@ -88,7 +84,7 @@ tl::expected<void, Failure> Driven::sit_out() {
     return pumped;
   if (robot_.is_stale())
     return {};
-  origin_ = robot_.now() - *std::exchange(paused_at_, std::nullopt);
+  origin_ = robot_.program_now() - *std::exchange(paused_at_, std::nullopt);
   if (options_.note)
     options_.note(std::string(samples_back));
   return {};

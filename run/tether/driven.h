@@ -23,7 +23,8 @@ void bring(Live& live, Duration t);
 class Driven {
 public:
   Driven(Live& live, Tether& robot, Listener& listener, const TetherOptions& options)
-      : live_(live), robot_(robot), listener_(listener), options_(options), origin_(robot.now()) {}
+      : live_(live), robot_(robot), listener_(listener), options_(options),
+        origin_(robot.program_now()) {}
 
   /// Whether the run has more to do.
   enum class Course : std::uint8_t { GoesOn, Ends };
@@ -39,7 +40,7 @@ public:
   Duration nap() const;
 
 private:
-  Duration elapsed() const { return robot_.now() - origin_; }
+  Duration elapsed() const { return robot_.program_now() - origin_; }
   void note(decltype(DriveLine::what) what);
   tl::expected<void, Failure> sit_out();
 

@@ -29,7 +29,7 @@ public:
 
   tl::expected<void, Failure> go_on(Duration t) override {
     auto goes = robot_.go_on();
-    origin_ = robot_.now() - t;
+    origin_ = robot_.program_now() - t;
     return goes;
   }
   tl::expected<void, Failure> hold() override { return robot_.hold(); }
@@ -56,14 +56,14 @@ public:
   }
 
 private:
-  Duration elapsed() const { return robot_.now() - origin_; }
+  Duration elapsed() const { return robot_.program_now() - origin_; }
 
   /// Without samples the run waits, too.
   void watch(bool was_stale) {
     if (robot_.is_stale() == was_stale)
       return;
     if (was_stale)
-      origin_ = robot_.now() - paused_at_;
+      origin_ = robot_.program_now() - paused_at_;
     else
       paused_at_ = elapsed();
     if (options_.note)

@@ -118,6 +118,8 @@ tl::expected<TetheredEnding, Failure> run_tethered(std::span<const Input> inputs
       stopped = robot.finish();
     }
   }
+  if (!failure)
+    failure = robot.verdict();
   tell_stop(tap, journey, (*live)->time(), stopped);
   auto ending = (*live)->finish();
   if (!ending)

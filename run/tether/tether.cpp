@@ -13,22 +13,24 @@ using protocol::LinkError;
 bool is_driving(const vm::Motion& motion) {
   if (const auto* roll = std::get_if<vm::Roll>(&motion))
     return roll->speed != 0 && roll->go != vm::Go::Brake;
-  if (const auto* motors = std::get_if<vm::Motors>(&motion)) {
-    const auto drives = [](const vm::Motor& motor) {
-      return motor.power != 0 &&
-             (motor.mode == vm::MotorMode::Forward || motor.mode == vm::MotorMode::Reverse);
-    };
-    return drives(motors->left) || drives(motors->right);
-  }
   return false;
 }
+
+/// As a roll has it: 0..359.
+int on_circle(double deg) {
+  constexpr int circle = 360;
+  return (static_cast<int>(std::lround(deg)) % circle + circle) % circle;
+}
+
+/// A longer wait than was asked for is no link that is slow, but a computer that slept.
+constexpr Duration longest_wait = 200ms;
 
 } // namespace
 
 Tether::Tether(protocol::Transport& transport, spec::Robot robot, const TetherBudgets& budgets,
                const Streamed& streamed)
     : transport_(&transport), robot_(robot), budgets_(budgets), wire_(make_wire(robot)),
-      streamed_(streamed) {}
+      streamed_(streamed), looked_at_(transport.now()) {}
 
 Tether::~Tether() {
   if (began_ && !finished_)
@@ -53,6 +55,7 @@ tl::expected<void, LinkError> Tether::send(const Request& request, Kind kind) {
     newest_[static_cast<std::size_t>(kind)] = seq_;
   seq_ = wire_->next_seq(seq_);
   next_send_ = now() + wire_->interval();
+  loose_ = loose_ || wire_->loosens(request);
   return transport_->write(bytes);
 }
 
@@ -93,19 +96,15 @@ tl::expected<Bytes, Failure> Tether::ask(const Request& request, Duration budget
       else
         wire_->feed(*bytes);
   }
-  const auto what = fmt::format("{:02X}h {:02X}h", request.did, request.cid);
   if (refusal && request.need == Request::Need::Try)
     return Bytes{};
   if (refusal)
-    return tl::unexpected(Failure{
-        ExitCode::Refused, fmt::format("the robot refuses command {}: {}; charge it, put it on the "
-                                       "floor, wake it, and try again",
-                                       what, wire_->describe(*refusal))});
+    return tl::unexpected(this->refusal(request, *refusal));
   return tl::unexpected(
       Failure{ExitCode::LinkLost,
-              fmt::format("the robot does not answer command {}; wake it, bring it closer, or run "
+              fmt::format("the robot does not answer {}; wake it, bring it closer, or run "
                           "`orb doctor`",
-                          what)});
+                          wire_->name_of(request))});
 }
 
 tl::expected<vm::Sample, Failure> Tether::begin(Aim aim) {
@@ -166,65 +165,107 @@ tl::expected<vm::Sample, Failure> Tether::listen() {
                 fmt::format("the robot answers, but no sensor data came for {} s; is it a {}? "
                             "if not, name it with `--robot`",
                             budgets_.first_sample / 1s, spec::info(robot_).title)});
-  sample_at_ = now();
+  sample_at_ = looked_at_ = now();
+  facing_deg_ = on_circle(sample->yaw_deg);
   stale_ = false;
   return *sample;
 }
 
 tl::expected<void, Failure> Tether::hold() {
   held_ = waits(Kind::Drive) ? std::exchange(waiting(Kind::Drive), std::nullopt) : driving_;
-  if (waits(Kind::Stop))
-    held_.reset();
-  waiting(Kind::Stop).reset();
   driving_.reset();
   if (!brake({}))
-    return tl::unexpected(Failure{ExitCode::LinkLost, std::string(stop_lost)});
+    return tl::unexpected(
+        refused_.value_or(Failure{ExitCode::LinkLost, std::string(stop_lost)}));
   return ask_all(wire_->silence());
 }
 
 tl::expected<void, Failure> Tether::go_on() {
   if (auto heard = listen(); !heard)
     return tl::unexpected(heard.error());
-  if (auto drive = std::exchange(held_, std::nullopt))
-    waiting(Kind::Drive) = std::move(drive);
+  resume(std::exchange(held_, std::nullopt));
   return {};
 }
 
 // What the ball asks of its body.
 
+/// Whatever drove the motors is what is stopped: a robot without stabilization ignores a roll.
+std::deque<Request> Tether::stop_steps() const {
+  std::deque<Request> steps;
+  if (loose_) {
+    steps.push_back(*wire_->drive(vm::Motors{}));
+    if (auto on = wire_->drive(vm::Stabilization::On))
+      steps.push_back(*std::move(on));
+  }
+  steps.push_back(wire_->brake(loose_ ? facing_deg_ : heading_));
+  return steps;
+}
+
 void Tether::want_stop() {
-  waiting(Kind::Stop) = wire_->brake(heading_);
+  stopping_ = stop_steps();
+  stop_open_ = false;
   waiting(Kind::Drive).reset();
+  waiting(Kind::Stabilization).reset();
   driving_.reset();
+}
+
+/// After a stop that the program did not ask for.
+void Tether::resume(std::optional<Request> drive) {
+  if (drive)
+    waiting(Kind::Drive) = std::move(drive);
+  else if (!stabilized_)
+    waiting(Kind::Stabilization) = wire_->drive(vm::Stabilization::Off);
+}
+
+void Tether::drive_motors(vm::Motors motors) {
+  for (auto [motor, before] : {std::pair{&motors.left, &motors_.left},
+                               std::pair{&motors.right, &motors_.right}})
+    if (motor->mode == vm::MotorMode::Ignore)
+      *motor = *before;
+  motors_ = motors;
+  stabilized_ = false;
+  auto request = *wire_->drive(motors);
+  if (is_on(motors.left) || is_on(motors.right)) {
+    waiting(Kind::Drive) = std::move(request);
+    return;
+  }
+  want_stop();
+  stopping_ = {std::move(request)}; // no more: without power it coasts
 }
 
 void Tether::obey(const vm::Motion& motion) {
   if (std::holds_alternative<vm::Stop>(motion))
     return want_stop();
+  if (const auto* motors = std::get_if<vm::Motors>(&motion))
+    return drive_motors(*motors);
   if (const auto* turn = std::get_if<vm::Rotate>(&motion)) {
     // It has no such command: it turns to where the turn ends.
-    constexpr int circle = 360;
-    heading_ = ((heading_ + turn->angle_deg) % circle + circle) % circle;
+    heading_ = on_circle(heading_ + turn->angle_deg);
     waiting(Kind::Drive) = wire_->drive(vm::Roll{heading_, 0, vm::Go::Drive});
+    return;
+  }
+  if (const auto* mode = std::get_if<vm::Stabilization>(&motion)) {
+    const bool was_stabilized = std::exchange(stabilized_, *mode != vm::Stabilization::Off);
+    if (stabilized_ && (loose_ || !was_stabilized))
+      return want_stop();
+    if (was_stabilized && !stabilized_) { // it rolls on unpowered
+      waiting(Kind::Drive).reset();
+      driving_.reset();
+    }
+    waiting(Kind::Stabilization) = wire_->drive(motion);
     return;
   }
   auto request = wire_->drive(motion);
   if (!request)
     return;
-  if (std::holds_alternative<vm::Stabilization>(motion)) {
-    waiting(Kind::Stabilization) = std::move(request);
-    return;
-  }
-  if (std::holds_alternative<vm::RotationRate>(motion)) {
+  const auto* roll = std::get_if<vm::Roll>(&motion);
+  if (roll == nullptr) {
     waiting(Kind::Rate) = std::move(request);
     return;
   }
-  const auto* roll = std::get_if<vm::Roll>(&motion);
-  if (roll != nullptr)
-    heading_ = roll->heading_deg;
-  const bool brakes = roll != nullptr && roll->go == vm::Go::Brake;
+  heading_ = roll->heading_deg;
   const bool was_driving = driving_.has_value() || waits(Kind::Drive);
-  if (brakes || (was_driving && !is_driving(motion)))
+  if (roll->go == vm::Go::Brake || (was_driving && !is_driving(motion)))
     return want_stop();
   waiting(Kind::Drive) = std::move(request);
 }
@@ -242,8 +283,17 @@ void Tether::show_back(int level) {
 
 // Sending.
 
+/// What drives waits for the stop before it, and for samples; the last step of a stop it outdates
+/// once that has been sent.
+bool Tether::may_leave(Kind kind) const {
+  if (kind == Kind::Stabilization)
+    return stopping_.empty() && !stale_;
+  return kind != Kind::Drive ||
+         (!stale_ && (stopping_.empty() || (stopping_.size() == 1 && stop_open_ && !loose_)));
+}
+
 Instant Tether::next_due() const {
-  Instant due = never;
+  Instant due = !stopping_.empty() && !stop_open_ ? next_send_ : never;
   for (std::size_t kind = 0; kind < kinds; ++kind)
     if (waiting_[kind] && may_leave(static_cast<Kind>(kind)))
       due = next_send_;
@@ -263,10 +313,9 @@ void Tether::send_again(const Pending& pending) {
   if (pending.kind == Kind::Other || waits(pending.kind) ||
       newest_[static_cast<std::size_t>(pending.kind)] != pending.seq)
     return;
-  const bool outdated = pending.kind == Kind::Stop    ? driving_.has_value()
-                        : pending.kind == Kind::Drive ? waits(Kind::Stop) || !driving_
-                                                      : false;
-  if (!outdated)
+  if (pending.kind == Kind::Stop)
+    stop_open_ = false;
+  else if (pending.kind != Kind::Drive || driving_)
     waiting(pending.kind) = pending.request;
 }
 
@@ -287,12 +336,17 @@ tl::expected<void, LinkError> Tether::send_due() {
     battery_at_ = now() + budgets_.battery;
     waiting(Kind::Battery) = wire_->ask_battery();
   }
+  if (!stopping_.empty() && !stop_open_) {
+    stop_open_ = true;
+    return send(stopping_.front(), Kind::Stop);
+  }
   for (std::size_t i = 0; i < kinds; ++i) {
     const auto kind = static_cast<Kind>(i);
     if (!waits(kind) || !may_leave(kind))
       continue;
     const auto request = *std::exchange(waiting(kind), std::nullopt);
     if (kind == Kind::Drive) {
+      stopping_.clear();
       driving_ = request;
       driven_at_ = now();
     }
@@ -310,6 +364,12 @@ tl::expected<void, LinkError> Tether::send_due() {
   return {};
 }
 
+/// The whole stop: from now on a roll of speed 0 is enough.
+void Tether::stop_acknowledged() {
+  stopped_ = winding_up_;
+  loose_ = false;
+}
+
 /// What an answer means for what was asked; the voltage of the battery where that was it.
 std::optional<vm::stimulus::Battery> Tether::take(const Said::Answer& answer) {
   const auto found = std::find_if(open_.begin(), open_.end(),
@@ -318,24 +378,49 @@ std::optional<vm::stimulus::Battery> Tether::take(const Said::Answer& answer) {
     return std::nullopt;
   const auto pending = std::move(*found);
   open_.erase(found);
+  if (pending.kind == Kind::Other)
+    return std::nullopt;
+  const auto kind = static_cast<std::size_t>(pending.kind);
   if (answer.error == 0) {
-    busy_since_.reset();
-    stopped_ = stopped_ || (winding_up_ && pending.kind == Kind::Stop);
+    busy_since_[kind].reset();
+    has_driven_ = has_driven_ || pending.kind == Kind::Drive;
+    if (pending.kind == Kind::Stop && !stopping_.empty() && newest_[kind] == pending.seq) {
+      const bool whole = !wire_->loosens(stopping_.front()) && stopping_.size() == 1;
+      stopping_.pop_front();
+      stop_open_ = false;
+      if (whole)
+        stop_acknowledged();
+    }
     return pending.kind == Kind::Battery ? wire_->read_battery(answer.data) : std::nullopt;
   }
   if (pending.kind == Kind::Battery)
     return std::nullopt; // it is asked again later
   const bool later = wire_->means_later(answer.error);
   if (later) {
-    busy_since_ = busy_since_.value_or(now());
+    busy_since_[kind] = busy_since_[kind].value_or(now());
     send_again(pending);
   }
-  const bool for_long = busy_since_ && now() - *busy_since_ >= budgets_.busy;
+  const bool for_long = busy_since_[kind] && now() - *busy_since_[kind] >= budgets_.busy;
   if (!refused_ && (for_long || !later))
-    refused_ =
-        Failure{ExitCode::Refused,
-                fmt::format("the robot refuses command {:02X}h {:02X}h: {}", pending.request.did,
-                            pending.request.cid, wire_->describe(answer.error))};
+    refused_ = refusal(pending.request, answer.error);
+  return std::nullopt;
+}
+
+Failure Tether::refusal(const Request& request, std::uint8_t error) const {
+  const auto remedy = wire_->means_later(error)
+                          ? "wait until it has done what it does, or switch it off and on"
+                          : "charge it, put it on the floor, wake it, and try again";
+  return {ExitCode::Refused, fmt::format("the robot refuses {}: {}; {}", wire_->name_of(request),
+                                         wire_->describe(error), remedy)};
+}
+
+std::optional<Failure> Tether::verdict() const {
+  if (refused_)
+    return refused_;
+  if (!has_driven_ && busy_since_[static_cast<std::size_t>(Kind::Drive)])
+    return Failure{ExitCode::Refused,
+                   "the robot was busy and took no command that drives it; wait until it has done "
+                   "what it does, or switch it off and on"};
   return std::nullopt;
 }
 
@@ -344,13 +429,26 @@ void Tether::watch_samples() {
   if (stale_ || sample_age() < budgets_.stale)
     return;
   stale_ = true;
-  const auto again = waits(Kind::Drive) ? waiting(Kind::Drive) : driving_;
+  auto again = waits(Kind::Drive) ? waiting(Kind::Drive) : driving_;
   want_stop();
-  waiting(Kind::Drive) = again; // leaves when samples come again
+  resume(std::move(again)); // leaves when samples come again
+}
+
+Duration Tether::slept_since(Instant expected) const {
+  const auto late = now() - std::max(expected, looked_at_);
+  return late > longest_wait ? late : Duration{};
+}
+
+void Tether::notice_pause(Instant expected) {
+  const auto slept = slept_since(expected);
+  slept_ += slept;
+  sample_at_ = std::min(now(), sample_at_ + slept); // nobody could hear any
+  looked_at_ = now();
 }
 
 tl::expected<void, Failure> Tether::pump(Instant deadline,
                                          const std::function<void(const Said&)>& hear) {
+  notice_pause(looked_at_);
   if (auto sent = send_due(); !sent)
     return tl::unexpected(lost(sent.error()));
   const auto wait = std::min(
@@ -358,10 +456,12 @@ tl::expected<void, Failure> Tether::pump(Instant deadline,
   auto bytes = transport_->read(wait);
   if (!bytes)
     return tl::unexpected(lost(bytes.error()));
+  notice_pause(wait);
   wire_->feed(*bytes);
   while (const auto said = wire_->next()) {
-    if (std::holds_alternative<vm::Sample>(said->what)) {
+    if (const auto* sample = std::get_if<vm::Sample>(&said->what)) {
       sample_at_ = now();
+      facing_deg_ = on_circle(sample->yaw_deg);
       stale_ = false;
     }
     const auto* answer = std::get_if<Said::Answer>(&said->what);
@@ -398,13 +498,13 @@ void Tether::relink(protocol::Transport& transport) {
   open_.clear();
 }
 
-/// Sends the brake until it is acknowledged, or the link is lost.
-bool Tether::brake(const std::function<void(const Said&)>& hear) {
-  const auto until = now() + budgets_.stop;
-  while (now() < until) {
+/// Sends the request, once at least, until it is acknowledged, `until` passes or the link is lost.
+bool Tether::acknowledges(const Request& request, Instant until,
+                          const std::function<void(const Said&)>& hear) {
+  do {
     const auto seq = seq_;
     // An interruption is noticed once; what follows goes through.
-    if (auto sent = send(wire_->brake(heading_), Kind::Stop); !sent) {
+    if (auto sent = send(request, Kind::Stop); !sent) {
       if (sent.error().kind != LinkError::Kind::Interrupted)
         return false;
       continue;
@@ -419,15 +519,35 @@ bool Tether::brake(const std::function<void(const Said&)>& hear) {
       }
       wire_->feed(*bytes);
       while (const auto said = wire_->next()) {
-        if (const auto* answer = std::get_if<Said::Answer>(&said->what)) {
-          if (answer->seq == seq && answer->error == 0)
-            return true;
-        } else if (hear)
+        const auto* answer = std::get_if<Said::Answer>(&said->what);
+        if (answer == nullptr && hear)
           hear(*said);
+        if (answer == nullptr || answer->seq != seq)
+          continue;
+        if (answer->error == 0) {
+          refused_.reset();
+          return true;
+        }
+        refused_ = refusal(request, answer->error);
+        if (!wire_->means_later(answer->error))
+          return false;
       }
     }
-  }
+  } while (now() < until);
   return false;
+}
+
+/// Stops the robot, step by step. Where one step is not acknowledged, the others are tried, too.
+bool Tether::brake(const std::function<void(const Said&)>& hear) {
+  const auto steps = stop_steps();
+  stopping_.clear();
+  const auto until = now() + budgets_.stop;
+  bool all = true;
+  for (const auto& step : steps)
+    all = acknowledges(step, until, hear) && all;
+  if (all)
+    stop_acknowledged();
+  return all;
 }
 
 /// Where it came to is what it says once it rests.

@@ -76,6 +76,12 @@ public:
   Duration sample_age() const { return now() - sample_at_; }
   bool is_stale() const { return stale_; }
 
+  /// The link's time without the pauses in which nobody pumped: a program's time does not jump over
+  /// what it would have done while the computer slept.
+  Instant program_now() const { return now() - slept_ - slept_since(looked_at_); }
+  /// Why the run was no success, where only its end tells: the robot was busy all the time.
+  std::optional<Failure> verdict() const;
+
   /// From now on the link is this one: the old one was lost.
   void relink(protocol::Transport& transport);
   /// The same as finish(), bit by bit for who may not wait: pump() brakes the robot, then puts it
@@ -91,7 +97,6 @@ public:
 private:
   /// What a request is about: of a kind the latest wins. The most urgent first.
   enum class Kind : std::uint8_t {
-    Stop,
     Stabilization,
     Drive,
     Rate,
@@ -99,6 +104,7 @@ private:
     Matrix,
     BackLamp,
     Battery,
+    Stop, ///< a step of a stop: they wait in a list of their own and go before all others
     Other
   };
   static constexpr std::size_t kinds = static_cast<std::size_t>(Kind::Other);
@@ -111,7 +117,7 @@ private:
 
   std::optional<Request>& waiting(Kind kind) { return waiting_[static_cast<std::size_t>(kind)]; }
   bool waits(Kind kind) const { return waiting_[static_cast<std::size_t>(kind)].has_value(); }
-  bool may_leave(Kind kind) const { return kind != Kind::Drive || !stale_; }
+  bool may_leave(Kind kind) const;
   tl::expected<Bytes, Failure> ask(const Request& request, Duration budget);
   tl::expected<void, Failure> ask_all(const std::vector<Request>& requests);
   tl::expected<vm::Sample, Failure> listen();
@@ -124,7 +130,16 @@ private:
   bool brake(const std::function<void(const Said&)>& hear);
   void await_rest(const std::function<void(const Said&)>& hear);
   void watch_samples();
+  std::deque<Request> stop_steps() const;
   void want_stop();
+  void resume(std::optional<Request> drive);
+  void drive_motors(vm::Motors motors);
+  bool acknowledges(const Request& request, Instant until,
+                    const std::function<void(const Said&)>& hear);
+  void stop_acknowledged();
+  Duration slept_since(Instant expected) const;
+  void notice_pause(Instant expected);
+  Failure refusal(const Request& request, std::uint8_t error) const;
   Failure lost(const protocol::LinkError& error) const;
 
   protocol::Transport* transport_;
@@ -134,23 +149,32 @@ private:
   Streamed streamed_;
   std::uint8_t seq_ = 0;
 
-  std::array<std::optional<Request>, kinds> waiting_; ///< to leave
-  std::array<std::uint8_t, kinds> newest_{};          ///< sequence number of the newest sent
+  std::array<std::optional<Request>, kinds> waiting_;     ///< to leave
+  std::array<std::uint8_t, kinds> newest_{};              ///< sequence number of the newest sent
+  std::array<std::optional<Instant>, kinds> busy_since_{}; ///< for so long it takes none of them
+  std::deque<Request> stopping_; ///< steps of a stop: each leaves once the last is acknowledged
+  bool stop_open_ = false;       ///< the first of them has been sent and not been answered
   std::optional<Request> driving_; ///< the last that left and keeps it moving: repeated
   std::deque<Request> parting_;    ///< to be sent after the brake
   bool winding_up_ = false;
   bool stopped_ = false;        ///< the brake of wind_up() was acknowledged
+  bool loose_ = false;          ///< raw motors or no stabilization: it ignores a roll of speed 0
+  bool stabilized_ = true;      ///< what the program wants
+  bool has_driven_ = false;     ///< it took a command that drives it
+  vm::Motors motors_;           ///< as set last
   std::optional<Request> held_; ///< what it is to drive once nobody holds it
   Instant driven_at_{};
   int heading_ = 0;
   std::deque<Pending> open_; ///< sent, not answered
   std::optional<vm::stimulus::Battery> battery_;
-  std::optional<Instant> busy_since_;
   std::optional<Failure> refused_;
 
   std::optional<Instant> battery_at_; ///< when it is asked for next; nothing where it does not tell
   Instant next_send_{};
   Instant sample_at_{};
+  int facing_deg_ = 0; ///< in the newest sample
+  Instant looked_at_{};
+  Duration slept_{}; ///< of all pauses
   bool stale_ = false;
   bool began_ = false;
   bool finished_ = false;

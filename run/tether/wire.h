@@ -75,7 +75,12 @@ public:
   virtual std::optional<Request> ask_battery() const = 0;
   virtual std::optional<vm::stimulus::Battery> read_battery(const Bytes& answer) const = 0;
 
+  /// Whether it switches stabilization off: then the robot ignores a roll until that is on again.
+  virtual bool loosens(const Request& request) const = 0;
+
   virtual Duration interval() const = 0;
+  /// `drive-with-heading (16h 07h)`
+  virtual std::string name_of(const Request& request) const = 0;
   /// `busy`, `bad length`, as the robot's tables say it.
   virtual std::string describe(std::uint8_t error) const = 0;
   virtual bool means_later(std::uint8_t error) const = 0;

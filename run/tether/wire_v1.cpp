@@ -8,6 +8,7 @@
 #include "uploader/session.h"
 
 #include <cmath>
+#include <fmt/format.h>
 
 namespace orb::run {
 namespace {
@@ -104,6 +105,10 @@ Request request(ApiCommand command, Bytes data) {
   return {spec::did(command), spec::cid(command), std::move(data)};
 }
 
+bool is(const Request& request, ApiCommand command) {
+  return request.did == spec::did(command) && request.cid == spec::cid(command);
+}
+
 class WireV1 final : public RobotWire {
 public:
   Bytes encode(const Request& request, std::uint8_t seq) const override {
@@ -113,10 +118,7 @@ public:
   std::uint8_t next_seq(std::uint8_t seq) const override {
     return static_cast<std::uint8_t>(seq + 1);
   }
-  void feed(ByteView bytes) override {
-    decoder_.feed(bytes);
-    decoder_.keep();
-  }
+  void feed(ByteView bytes) override { decoder_.feed(bytes); }
   std::optional<Said> next() override;
 
   std::vector<Request> setup(Aim aim) const override;
@@ -147,6 +149,15 @@ public:
     if (answer.size() < voltage + 2)
       return std::nullopt;
     return vm::stimulus::Battery{read_u16(answer, voltage) / 100.0};
+  }
+  bool loosens(const Request& request) const override {
+    return is(request, ApiCommand::SetRawMotorValues) ||
+           (is(request, ApiCommand::SetStabilization) && request.data.front() == 0);
+  }
+  std::string name_of(const Request& request) const override {
+    const auto* row = spec::find_command(request.did, request.cid);
+    return fmt::format("{} ({:02X}h {:02X}h)", row == nullptr ? "a command" : row->name,
+                       request.did, request.cid);
   }
   Duration interval() const override { return spec::info(spec::Robot::Sphero).interval; }
   std::string describe(std::uint8_t error) const override { return uploader::describe_code(error); }

@@ -48,6 +48,11 @@ Request request(V2Command command, Bytes data = {}) {
   return {row.did(), row.cid(), std::move(data)};
 }
 
+bool is(const Request& request, V2Command command) {
+  const auto& row = spec::info(command);
+  return request.did == row.did() && request.cid == row.cid();
+}
+
 void take(vm::Sample& sample, V2Sensor sensor, double value) {
   switch (sensor) {
   case V2Sensor::Pitch: sample.pitch_deg = value; break;
@@ -143,6 +148,15 @@ public:
     if (answer.size() != 2)
       return std::nullopt;
     return vm::stimulus::Battery{read_u16(answer, 0) / 100.0};
+  }
+  bool loosens(const Request& request) const override {
+    return is(request, V2Command::RawMotors) ||
+           (is(request, V2Command::SetStabilization) && request.data.front() == 0);
+  }
+  std::string name_of(const Request& request) const override {
+    const auto* row = spec::find_v2_command(request.did, request.cid);
+    return fmt::format("{} ({:02X}h {:02X}h)", row == nullptr ? "a command" : row->name,
+                       request.did, request.cid);
   }
   Duration interval() const override { return robot_.interval; }
   std::string describe(std::uint8_t error) const override {

@@ -37,7 +37,7 @@ public:
     link = std::make_unique<protocol::FaultTransport>(std::move(wire), plan, packets);
   }
 
-  bool drives() const { return ball->body().speed_setpoint() != 0; }
+  bool drives() const { return ball->body().is_driven(); }
 
   /// Nobody says anything any more.
   void live_on(Duration time) {

@@ -145,7 +145,7 @@ void Body::become(Elsewhere& robot) {
 
 bool Body::robot_moves() const {
   constexpr double crawl = 1; // cm/s: less is the noise of the sensors
-  return drive_.strives() || vm::length(felt_->velocity_cm_s.x, felt_->velocity_cm_s.y) > crawl;
+  return drive_.is_driven() || vm::length(felt_->velocity_cm_s.x, felt_->velocity_cm_s.y) > crawl;
 }
 
 /// What renames headings is done here: the robot keeps its own.

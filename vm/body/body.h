@@ -137,6 +137,8 @@ public:
   Vector3 velocity_cm_s() const; ///< locator axes; z is 0
   double heading_setpoint_deg() const { return drive_.heading_setpoint_deg(); }
   int speed_setpoint() const { return drive_.speed_setpoint(); }
+  /// Whether it is told to move: a speed is ordered, or a motor is on.
+  bool is_driven() const { return drive_.is_driven(); }
   /// The roll that changes nothing but the speed.
   Roll roll_at(int speed) const { return drive_.roll_at(speed); }
   double left_motor_cm_s() const { return drive_.left_motor_cm_s(); }

@@ -104,6 +104,8 @@ public:
   }
   bool rolls() const { return forward_ != 0 || slip_ != 0 || drifts(); }
   bool strives() const { return target_speed_ != 0; }
+  /// Whether it is told to move: a speed is ordered, or a motor is on.
+  bool is_driven() const { return strives() || is_on(left_) || is_on(right_); }
   bool stopped() const;
 
   Course course() const {

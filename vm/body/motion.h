@@ -35,6 +35,11 @@ struct Motors {
   Motor right;
 };
 
+/// Whether a motor that is set so turns its wheel.
+constexpr bool is_on(const Motor& motor) {
+  return motor.power != 0 && (motor.mode == MotorMode::Forward || motor.mode == MotorMode::Reverse);
+}
+
 /// The control system. `OnAndReset` also takes the present heading as the set-point.
 enum class Stabilization : std::uint8_t { Off = 0, OnAndReset = 1, On = 2 };
 

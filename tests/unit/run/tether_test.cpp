@@ -1,8 +1,11 @@
+#include "run/tether/hold_robot.h"
 #include "run/tether/run_tethered.h"
 
 #include "tests/fakes/far_robot.h"
+#include "tests/fakes/troubled_link.h"
 
 #include <cmath>
+#include <cstdio>
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <memory>
@@ -13,6 +16,17 @@ namespace {
 constexpr std::string_view square = "10 for I = 0 to 3\n20 RGB 255,0,0\n30 goroll I * 90,60,1\n"
                                     "40 delay 1000\n50 goroll I * 90,0,0\n60 delay 1500\n"
                                     "70 print xpos, ypos\n80 next I\n";
+
+/// Motors by hand: a ball without stabilization ignores a roll of speed 0.
+constexpr std::string_view raw = "10 raw 1,120,1,120\n20 delay 1000\n30 raw 0,0,0,0\n"
+                                 "40 delay 1500\n50 print speed\n";
+constexpr std::string_view raw_for_ever = "10 raw 1,200,1,100\n20 delay 50000\n";
+constexpr std::string_view roll_for_ever = "10 goroll 0,60,1\n20 delay 50000\n";
+
+constexpr std::string_view raw_and_rolls =
+    "10 goroll 0,60,1\n20 delay 500\n30 raw 1,200,2,200\n40 delay 700\n50 ctrl = 1\n"
+    "60 goroll 90,80,1\n70 delay 600\n80 ctrl = 0\n90 delay 300\n100 raw 2,255,2,255\n"
+    "110 delay 900\n";
 
 /// What the robot was told.
 struct Told : vm::Observer {
@@ -41,12 +55,17 @@ struct Heard final : Listener {
   int faults = 0;
 };
 
-tl::expected<TetheredEnding, Failure> run_on(Robot& robot, spec::Robot which,
-                                             std::string_view program, Heard& heard) {
+tl::expected<TetheredEnding, Failure> run_over(protocol::Transport& link, spec::Robot which,
+                                               std::string_view program, Heard& heard) {
   const auto inputs = test::program_of(program);
   TetherOptions options;
   options.robot = which;
-  return run_tethered(inputs, {}, heard, nullptr, *robot.link, options);
+  return run_tethered(inputs, {}, heard, nullptr, link, options);
+}
+
+tl::expected<TetheredEnding, Failure> run_on(Robot& robot, spec::Robot which,
+                                             std::string_view program, Heard& heard) {
+  return run_over(*robot.link, which, program, heard);
 }
 
 TEST(Tether, DrivesEachRobotAsTheVirtualBallDrives) {
@@ -71,30 +90,162 @@ TEST(Tether, DrivesEachRobotAsTheVirtualBallDrives) {
     EXPECT_LT(std::hypot(a.x_cm - b.x_cm, a.y_cm - b.y_cm), near_cm)
         << row.name << ": " << a.x_cm << "," << a.y_cm << " and " << b.x_cm << "," << b.y_cm;
     EXPECT_EQ(here.rolls, there.rolls) << row.name;
-    EXPECT_EQ(robot.ball->body().speed_setpoint(), 0) << row.name;
+    EXPECT_FALSE(robot.drives()) << row.name;
     EXPECT_EQ(robot.colors.front().red, 255) << row.name;
     EXPECT_EQ(robot.ball->led(), vm::Color{}) << row.name << " is left shining";
   }
 }
 
+TEST(Tether, RawMotorsThatAreOffAreOff) {
+  for (const auto& row : spec::robots) {
+    Options options;
+    options.model = row.robot;
+    Heard here;
+    ASSERT_TRUE(run(test::program_of(raw), options, here, nullptr).has_value());
+    Robot robot(row.robot);
+    Heard there;
+    const auto driven = run_on(robot, row.robot, raw, there);
+    ASSERT_TRUE(driven.has_value()) << row.name;
+    EXPECT_NEAR(std::stoi(there.prints), std::stoi(here.prints), 8) << row.name;
+    EXPECT_FALSE(robot.drives()) << row.name;
+  }
+}
+
+TEST(Tether, RawMotorsGoOffHoweverARunEnds) {
+  for (const auto& row : spec::robots) {
+    Robot robot(row.robot);
+    test::InterruptedLink link(*robot.link, robot.link->now() + 3s);
+    Heard heard;
+    const auto driven = run_over(link, row.robot, raw_for_ever, heard);
+    ASSERT_TRUE(driven && driven->failure) << row.name;
+    EXPECT_EQ(driven->failure->code, ExitCode::Interrupted) << row.name;
+    EXPECT_TRUE(driven->ending.robot_stopped.value_or(false)) << row.name;
+    EXPECT_FALSE(robot.drives()) << row.name << " is left driving";
+    EXPECT_TRUE(robot.ball->body().stabilized()) << row.name;
+  }
+}
+
+TEST(Tether, ARobotWithoutSamplesIsStoppedAfterHalfASecond) {
+  for (const auto program : {raw_for_ever, roll_for_ever})
+    for (const auto& row : spec::robots) {
+      Robot robot(row.robot);
+      test::MuteLink link(*robot.link, robot.link->now() + 3s);
+      Heard heard;
+      const auto driven = run_over(link, row.robot, program, heard);
+      ASSERT_TRUE(driven && driven->failure) << row.name;
+      EXPECT_EQ(driven->failure->code, ExitCode::LinkLost) << row.name;
+      ASSERT_TRUE(link.stopped) << row.name;
+      const auto wait = *link.stopped - *link.last_sample;
+      EXPECT_GE(wait, 450ms) << row.name;
+      EXPECT_LE(wait, 900ms) << row.name; // and up to three commands, each at its interval
+      EXPECT_FALSE(robot.drives()) << row.name;
+    }
+}
+
+TEST(Tether, APauseOfTheComputerPausesTheProgram) {
+  const auto drive = [](spec::Robot which, Duration pause, Duration& lasted) {
+    Robot robot(which);
+    test::SleepingLink link(*robot.link, robot.link->now() + 3s, pause);
+    Heard heard;
+    const auto driven = run_over(link, which, square, heard);
+    EXPECT_TRUE(driven && !driven->failure);
+    if (driven)
+      lasted = driven->ending.lasted;
+    return link.rolls;
+  };
+  for (const auto which : {spec::Robot::Sphero, spec::Robot::Bolt}) {
+    Duration awake{}, slept{};
+    EXPECT_EQ(drive(which, 0s, awake), drive(which, 4s, slept));
+    EXPECT_LT(std::chrono::abs(awake - slept), 200ms);
+  }
+}
+
+TEST(Tether, ARobotThatIsAlwaysBusyIsARefusal) {
+  for (const auto which : {spec::Robot::Sphero, spec::Robot::Bolt})
+    for (const auto program : {square, raw, std::string_view("10 goroll 0,60,1\n20 delay 300\n")}) {
+      Robot robot(which);
+      test::BusyLink link(*robot.link);
+      Heard heard;
+      const auto driven = run_over(link, which, program, heard);
+      ASSERT_TRUE(driven && driven->failure);
+      EXPECT_EQ(driven->failure->code, ExitCode::Refused);
+      EXPECT_NE(driven->failure->message.find("busy"), std::string::npos) << driven->failure->message;
+    }
+}
+
+/// After any end no motor turns longer than 2.1 s, and none at all where the stop was acknowledged.
+void expect_stopped(Robot& robot, const tl::expected<TetheredEnding, Failure>& driven,
+                    const std::string& words) {
+  if (driven && driven->ending.robot_stopped.value_or(false)) {
+    EXPECT_FALSE(robot.drives()) << words << " is left driving";
+    return;
+  }
+  robot.live_on(2100ms); // it stops by itself within two seconds of the last command
+  EXPECT_FALSE(robot.drives()) << words << " is left driving";
+}
+
 TEST(Tether, LeavesNoRobotDrivingWhateverTheLinkDoes) {
   constexpr std::string_view plans[] = {"drop=10%",      "dup=10%",       "flip=5%",
                                         "split,drop=2%", "merge,stale=8", "delay=50..300ms",
-                                        "storm=30%"};
-  for (const auto which : {spec::Robot::Sphero, spec::Robot::Mini, spec::Robot::Rvr})
+                                        "storm=30%",     "cut@300",       "cut-answer@1500"};
+  for (const auto& row : spec::robots)
     for (const auto plan : plans)
-      for (int seed = 1; seed <= 3; ++seed) {
-        const auto words = fmt::format("{},seed={}", plan, seed);
-        Robot robot(which, words);
-        Heard heard;
-        const auto driven = run_on(robot, which, square, heard);
-        if (driven && driven->ending.robot_stopped.value_or(false)) {
-          EXPECT_EQ(robot.ball->body().speed_setpoint(), 0) << words << " is left driving";
-          continue;
+      for (const auto program : {square, raw_and_rolls, raw_for_ever})
+        for (int seed = 1; seed <= 3; ++seed) {
+          const auto words = fmt::format("{} {},seed={}, {}", row.name, plan, seed, program);
+          Robot robot(row.robot, fmt::format("{},seed={}", plan, seed));
+          test::InterruptedLink link(*robot.link,
+                                     robot.link->now() + (program == square ? 60s : seed * 1s));
+          Heard heard;
+          expect_stopped(robot, run_over(link, row.robot, program, heard), words);
         }
-        robot.live_on(2100ms); // it stops by itself within two seconds of the last command
-        EXPECT_EQ(robot.ball->body().speed_setpoint(), 0) << words << " is left driving";
-      }
+}
+
+TEST(Tether, ARobotThatIsHeldStandsStillAndGoesOnAsItDrove) {
+  for (const auto& row : spec::robots) {
+    const auto drive = [&](const vm::Motion& motion) {
+      Robot robot(row.robot);
+      TetherOptions options;
+      options.robot = row.robot;
+      auto held = hold_robot(*robot.link, options);
+      ASSERT_TRUE(held) << row.name;
+      ASSERT_TRUE((*held)->go_on(0s)) << row.name;
+      (*held)->obey(motion);
+      const auto live = [&](Duration until) {
+        while ((*held)->time() < until)
+          ASSERT_TRUE((*held)->hear(until)) << row.name;
+      };
+      live(1s);
+      EXPECT_TRUE(robot.drives()) << row.name;
+      ASSERT_TRUE((*held)->hold()) << row.name;
+      EXPECT_FALSE(robot.drives()) << row.name << " drives while it is held";
+      robot.live_on(5s);
+      ASSERT_TRUE((*held)->go_on(1s)) << row.name;
+      live(2s);
+      EXPECT_TRUE(robot.drives()) << row.name << " does not go on";
+      EXPECT_EQ(robot.ball->body().stabilized(), std::holds_alternative<vm::Roll>(motion));
+      held->reset();
+      EXPECT_FALSE(robot.drives()) << row.name << " is left driving";
+    };
+    drive(vm::Roll{90, 60, vm::Go::Drive});
+    drive(vm::Motors{{vm::MotorMode::Forward, 200}, {vm::MotorMode::Ignore, 0}});
+  }
+}
+
+TEST(Tether, AMotorThatIsIgnoredGoesOn) {
+  Robot robot(spec::Robot::Mini);
+  Heard heard;
+  const auto driven = run_on(robot, spec::Robot::Mini,
+                             "10 raw 1,100,1,100\n20 delay 300\n30 raw 0,0,4,0\n40 delay 250\n"
+                             "50 print yaw\n60 ctrl = 1\n70 delay 300\n80 goroll 90,60,1\n"
+                             "90 delay 800\n100 print speed\n",
+                             heard);
+  ASSERT_TRUE(driven && !driven->failure);
+  ASSERT_EQ(heard.faults, 0);
+  int yaw = 0, speed = 0;
+  ASSERT_EQ(std::sscanf(heard.prints.c_str(), "%d %d", &yaw, &speed), 2) << heard.prints;
+  EXPECT_GT(yaw, 180) << "the right wheel went on: it turned to the left";
+  EXPECT_GT(speed, 10) << "and rolls again";
 }
 
 TEST(Tether, WithoutSamplesTheRobotIsStoppedAndTheRunEnds) {

@@ -1,0 +1,235 @@
+#pragma once
+
+#include "protocol/decoder.h"
+#include "protocol/packet.h"
+#include "protocol/packet_v2.h"
+#include "protocol/payload.h"
+#include "protocol/payload_v2.h"
+#include "protocol/transport.h"
+#include "spec/robots.h"
+
+#include <optional>
+#include <vector>
+
+// Links to a robot that do one thing to it each: fall silent, sleep, say busy, interrupt.
+
+namespace orb::test {
+
+/// A packet of either kind, one that drives, or a sample.
+struct Seen {
+  bool is_roll = false;
+  bool is_raw = false;
+  bool is_sample = false;
+  int speed = 0; ///< of a roll
+  int heading_deg = 0;
+  Bytes raw;
+  std::uint8_t seq = 0;
+  std::optional<protocol::PacketV2> v2;
+
+  bool drives() const { return is_roll || is_raw; }
+};
+
+/// What the bytes of one direction hold, packet by packet.
+class Watcher {
+public:
+  explicit Watcher(protocol::Direction direction) : v1_(direction) {}
+
+  std::vector<Seen> see(ByteView bytes) {
+    std::vector<Seen> all;
+    v1_.feed(bytes);
+    while (const auto item = v1_.next())
+      if (item->kind != protocol::Item::Kind::Noise)
+        all.push_back(seen(*item));
+    if (!all.empty())
+      return all;
+    v2_.feed(bytes);
+    while (const auto item = v2_.next())
+      if (item->kind == protocol::ItemV2::Kind::Packet)
+        all.push_back(seen(*item));
+    return all;
+  }
+
+private:
+  static Seen seen(const protocol::Item& item) {
+    Seen one;
+    one.raw.assign(item.raw.begin(), item.raw.end());
+    one.seq = item.seq;
+    one.is_sample = item.kind == protocol::Item::Kind::Async &&
+                    item.code == static_cast<std::uint8_t>(spec::AsyncId::SensorData);
+    if (item.kind != protocol::Item::Kind::Command)
+      return one;
+    const auto is = [&](spec::ApiCommand command) {
+      return item.did == spec::did(command) && item.cid == spec::cid(command);
+    };
+    one.is_raw = is(spec::ApiCommand::SetRawMotorValues);
+    one.is_roll = is(spec::ApiCommand::Roll);
+    if (one.is_roll) {
+      one.speed = item.data[0];
+      one.heading_deg = static_cast<int>(read_u16(item.data, 1));
+    }
+    return one;
+  }
+  static Seen seen(const protocol::ItemV2& item) {
+    const auto& packet = item.packet;
+    Seen one;
+    one.raw = item.raw;
+    one.seq = packet.seq;
+    one.v2 = packet;
+    if (packet.seq == spec::v2_message_seq) {
+      const auto* row = spec::find_v2_message(packet.did, packet.cid);
+      one.is_sample = row != nullptr && (row->message == spec::V2Message::Sample ||
+                                         row->message == spec::V2Message::ServiceSample);
+      return one;
+    }
+    if (spec::has(packet.flags, spec::V2Flag::Response))
+      return one;
+    const auto* row = spec::find_v2_command(packet.did, packet.cid);
+    one.is_raw = row != nullptr && row->command == spec::V2Command::RawMotors;
+    one.is_roll = row != nullptr && row->command == spec::V2Command::DriveWithHeading;
+    if (one.is_roll) {
+      one.speed = packet.data[0];
+      one.heading_deg = static_cast<int>(read_u16(packet.data, 1));
+    }
+    return one;
+  }
+
+  protocol::Decoder v1_;
+  protocol::DecoderV2 v2_;
+};
+
+/// Hands everything on.
+class PassingLink : public protocol::Transport {
+public:
+  explicit PassingLink(protocol::Transport& inner) : inner_(inner) {}
+  Instant now() const override { return inner_.now(); }
+  tl::expected<void, protocol::LinkError> write(ByteView bytes) override {
+    return inner_.write(bytes);
+  }
+  tl::expected<Bytes, protocol::LinkError> read(Instant deadline) override {
+    return inner_.read(deadline);
+  }
+
+protected:
+  protocol::Transport& inner_;
+};
+
+/// Somebody presses Ctrl-C at an instant.
+class InterruptedLink final : public PassingLink {
+public:
+  InterruptedLink(protocol::Transport& inner, Instant at) : PassingLink(inner), at_(at) {}
+  tl::expected<Bytes, protocol::LinkError> read(Instant deadline) override {
+    if (now() < at_)
+      return inner_.read(deadline);
+    at_ = never;
+    return tl::unexpected(
+        protocol::LinkError{protocol::LinkError::Kind::Interrupted, "interrupted"});
+  }
+
+private:
+  Instant at_;
+};
+
+/// From an instant on no sample comes; all else does.
+class MuteLink final : public PassingLink {
+public:
+  MuteLink(protocol::Transport& inner, Instant at) : PassingLink(inner), at_(at) {}
+  tl::expected<void, protocol::LinkError> write(ByteView bytes) override {
+    for (const auto& one : told_.see(bytes))
+      if (now() > at_ && one.is_roll && one.speed == 0 && !stopped)
+        stopped = now();
+    return inner_.write(bytes);
+  }
+  tl::expected<Bytes, protocol::LinkError> read(Instant deadline) override {
+    auto bytes = inner_.read(deadline);
+    if (!bytes)
+      return bytes;
+    Bytes left;
+    for (const auto& one : said_.see(*bytes)) {
+      if (one.is_sample && now() > at_)
+        continue;
+      if (one.is_sample)
+        last_sample = now();
+      left.insert(left.end(), one.raw.begin(), one.raw.end());
+    }
+    return left;
+  }
+  std::optional<Instant> last_sample;
+  std::optional<Instant> stopped; ///< when a roll of speed 0 left after the last sample
+
+private:
+  Instant at_;
+  Watcher told_{protocol::Direction::ToBall};
+  Watcher said_{protocol::Direction::FromBall};
+};
+
+/// The computer sleeps for a while: nobody reads, and what came meanwhile comes at once.
+class SleepingLink final : public PassingLink {
+public:
+  SleepingLink(protocol::Transport& inner, Instant at, Duration length)
+      : PassingLink(inner), at_(at), length_(length) {}
+  tl::expected<void, protocol::LinkError> write(ByteView bytes) override {
+    for (const auto& one : told_.see(bytes))
+      if (one.is_roll && (rolls.empty() || rolls.back() != std::pair{one.heading_deg, one.speed}))
+        rolls.emplace_back(one.heading_deg, one.speed);
+    return inner_.write(bytes);
+  }
+  tl::expected<Bytes, protocol::LinkError> read(Instant deadline) override {
+    if (now() < at_)
+      return inner_.read(deadline);
+    const auto until = now() + length_;
+    at_ = never;
+    Bytes all;
+    while (now() < until) {
+      const auto bytes = inner_.read(until);
+      if (!bytes)
+        return bytes;
+      all.insert(all.end(), bytes->begin(), bytes->end());
+    }
+    return all;
+  }
+  std::vector<std::pair<int, int>> rolls; ///< heading and speed, each once
+
+private:
+  Instant at_;
+  Duration length_;
+  Watcher told_{protocol::Direction::ToBall};
+};
+
+/// The robot answers `busy` to whatever drives it, and does nothing.
+class BusyLink final : public PassingLink {
+public:
+  using PassingLink::PassingLink;
+  tl::expected<void, protocol::LinkError> write(ByteView bytes) override {
+    for (const auto& one : told_.see(bytes))
+      if (one.drives()) {
+        const auto answer = busy(one);
+        answers_.insert(answers_.end(), answer.begin(), answer.end());
+        return {};
+      }
+    return inner_.write(bytes);
+  }
+  tl::expected<Bytes, protocol::LinkError> read(Instant deadline) override {
+    auto bytes = inner_.read(answers_.empty() ? deadline : std::min(deadline, now() + 20ms));
+    if (bytes)
+      bytes->insert(bytes->end(), answers_.begin(), answers_.end());
+    answers_.clear();
+    return bytes;
+  }
+
+private:
+  static Bytes busy(const Seen& one) {
+    if (!one.v2)
+      return encode(protocol::Response{
+          static_cast<std::uint8_t>(spec::ResponseCode::MemoryBusy), one.seq, {}});
+    auto answer = *one.v2;
+    answer.flags = static_cast<std::uint8_t>(spec::V2Flag::Response);
+    answer.error = static_cast<std::uint8_t>(spec::V2Error::Busy);
+    answer.data.clear();
+    return encode(answer);
+  }
+
+  Watcher told_{protocol::Direction::ToBall};
+  Bytes answers_;
+};
+
+} // namespace orb::test
