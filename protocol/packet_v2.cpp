@@ -1,10 +1,8 @@
 #include "protocol/packet_v2.h"
 
 #include "protocol/packet.h"
-#include "protocol/payload_v2.h"
 
 #include <algorithm>
-#include <fmt/format.h>
 
 namespace orb::protocol {
 namespace {
@@ -58,14 +56,6 @@ bool read_packet(ByteView bytes, PacketV2& packet) {
     return false;
   packet.data.assign(bytes.begin() + static_cast<std::ptrdiff_t>(at), bytes.end());
   return true;
-}
-
-std::string flag_names(std::uint8_t flags) {
-  std::string out;
-  for (const auto& row : spec::v2_flags)
-    if (spec::has(flags, row.flag))
-      out += fmt::format("{}{}", out.empty() ? "" : ", ", row.name);
-  return out.empty() ? "none" : out;
 }
 
 } // namespace
@@ -145,44 +135,6 @@ std::optional<ItemV2> DecoderV2::next() {
   item.kind =
       item.checksum == item.right_checksum ? ItemV2::Kind::Packet : ItemV2::Kind::BadChecksum;
   return item;
-}
-
-std::string describe(const ItemV2& item) {
-  const auto& packet = item.packet;
-  switch (item.kind) {
-  case ItemV2::Kind::Noise: return fmt::format("noise {}", to_hex(item.raw));
-  case ItemV2::Kind::Incomplete: return fmt::format("incomplete {}", to_hex(item.raw));
-  case ItemV2::Kind::BadChecksum:
-    return fmt::format("bad checksum {}, expected {:02X}", to_hex(item.raw), item.right_checksum);
-  case ItemV2::Kind::Packet: break;
-  }
-  const auto is_response = spec::has(packet.flags, spec::V2Flag::Response);
-  const auto name = name_of(packet);
-  const bool is_message = !is_response && packet.seq == spec::v2_message_seq;
-  auto out = fmt::format("{}{}{}: flags {:02X} ({})",
-                         is_response  ? "response"
-                         : is_message ? "message"
-                                      : "command",
-                         name.empty() ? "" : " ", name, packet.flags, flag_names(packet.flags));
-  if (!packet.extended_flags.empty())
-    out += fmt::format(", extended flags {}", to_hex(packet.extended_flags));
-  if (spec::has(packet.flags, spec::V2Flag::HasTarget))
-    out += fmt::format(", tid {:02X} (port {}, node {})", packet.target, packet.target >> 4,
-                       packet.target & 15);
-  if (spec::has(packet.flags, spec::V2Flag::HasSource))
-    out += fmt::format(", sid {:02X} (port {}, node {})", packet.source, packet.source >> 4,
-                       packet.source & 15);
-  out += fmt::format(", did {:02X}, cid {:02X}, seq {:02X}", packet.did, packet.cid, packet.seq);
-  if (is_response) {
-    const auto* error = spec::find_v2_error(packet.error);
-    out += fmt::format(", err {:02X} ({})", packet.error,
-                       error == nullptr ? "unknown" : error->meaning);
-  }
-  if (const auto fields = fields_of(packet); !fields.empty())
-    out += ", " + fields;
-  else if (!packet.data.empty())
-    out += fmt::format(", data {}", to_hex(packet.data));
-  return out + fmt::format(", chk {:02X}", item.checksum);
 }
 
 } // namespace orb::protocol

@@ -4,7 +4,6 @@
 #include "spec/packet_v2.h"
 
 #include <optional>
-#include <string>
 
 namespace orb::protocol {
 
@@ -59,8 +58,5 @@ private:
   std::size_t at_ = 0;
   bool expired_ = false;
 };
-
-/// One line, every field named.
-std::string describe(const ItemV2& item);
 
 } // namespace orb::protocol

@@ -13,19 +13,6 @@ namespace {
 
 using spec::V2Type;
 
-constexpr std::size_t size_of(V2Type type) {
-  switch (type) {
-  case V2Type::U8: return 1;
-  case V2Type::U16:
-  case V2Type::S16: return 2;
-  case V2Type::U32:
-  case V2Type::F32: return 4;
-  case V2Type::Text:
-  case V2Type::Data: return 0;
-  }
-  return 0;
-}
-
 std::optional<std::int64_t> read_integer(std::string_view word) {
   std::int64_t value = 0;
   const bool is_hex = word.starts_with("0x") || word.starts_with("0X");
@@ -67,7 +54,8 @@ bool append(Bytes& out, const spec::V2Field& field, const std::string& word) {
   }
   if (field.type == V2Type::Data) {
     const auto bytes = from_hex(word);
-    if (!bytes || bytes->size() > most)
+    if (!bytes || bytes->size() > most ||
+        bytes->size() < static_cast<std::size_t>(std::max<std::int64_t>(field.least, 0)))
       return false;
     out.insert(out.end(), bytes->begin(), bytes->end());
     return true;
@@ -83,7 +71,7 @@ bool append(Bytes& out, const spec::V2Field& field, const std::string& word) {
   const auto value = read_integer(word);
   if (!value || *value < field.least || *value > field.most)
     return false;
-  switch (size_of(field.type)) {
+  switch (width_of(field.type)) {
   case 1: out.push_back(static_cast<std::uint8_t>(*value)); break;
   case 2: append_u16(out, static_cast<std::uint32_t>(*value)); break;
   default: append_u32(out, static_cast<std::uint32_t>(*value)); break;
@@ -91,43 +79,20 @@ bool append(Bytes& out, const spec::V2Field& field, const std::string& word) {
   return true;
 }
 
-template <class Fields>
-std::string values(const Fields& fields, spec::V2Command command, ByteView data) {
-  std::string out;
-  std::size_t at = 0;
-  const auto add = [&](std::string_view name, const std::string& value) {
-    out += fmt::format("{}{} {}", out.empty() ? "" : ", ", name, value);
-  };
-  for (const spec::V2Field& field : fields) {
-    if (field.command != command)
-      continue;
-    const auto size = size_of(field.type);
-    if (data.size() - at < size || (size == 0 && at == data.size()))
-      break;
-    const auto rest = data.subspan(at);
-    switch (field.type) {
-    case V2Type::U8: add(field.name, std::to_string(rest[0])); break;
-    case V2Type::U16: add(field.name, std::to_string(read_u16(rest, 0))); break;
-    case V2Type::S16:
-      add(field.name, std::to_string(static_cast<std::int16_t>(read_u16(rest, 0))));
-      break;
-    case V2Type::U32: add(field.name, fmt::format("{:08X}h", read_u32(rest, 0))); break;
-    case V2Type::F32: add(field.name, fmt::format("{:g}", read_f32(rest, 0))); break;
-    case V2Type::Data: add(field.name, to_hex(rest)); break;
-    case V2Type::Text: {
-      const auto text = as_text(rest).substr(0, as_text(rest).find('\0'));
-      const bool is_plain =
-          std::all_of(text.begin(), text.end(), [](char c) { return c >= ' ' && c <= '~'; });
-      add(field.name, is_plain ? fmt::format("`{}`", text) : to_hex(as_bytes(text)));
-      break;
-    }
-    }
-    at += size == 0 ? rest.size() : size;
-  }
-  return out;
-}
-
 } // namespace
+
+std::size_t width_of(V2Type type) {
+  switch (type) {
+  case V2Type::U8: return 1;
+  case V2Type::U16:
+  case V2Type::S16: return 2;
+  case V2Type::U32:
+  case V2Type::F32: return 4;
+  case V2Type::Text:
+  case V2Type::Data: return 0;
+  }
+  return 0;
+}
 
 void append_f32(Bytes& out, double value) {
   const auto number = static_cast<float>(value);
@@ -151,7 +116,7 @@ tl::expected<Bytes, std::string> encode_operands(spec::V2Command command,
   for (const auto& field : spec::v2_operands) {
     if (field.command != command)
       continue;
-    const bool may_be_absent = size_of(field.type) == 0 && field.type == V2Type::Data;
+    const bool may_be_absent = width_of(field.type) == 0 && field.type == V2Type::Data;
     if (at == words.size() && may_be_absent)
       continue;
     const bool given = at < words.size();
@@ -184,7 +149,7 @@ PacketV2 make_request(spec::V2Command command, Bytes data, std::uint8_t seq, std
 
 PacketV2 address(PacketV2 request, const spec::RobotInfo& robot) {
   const auto* row = spec::find_v2_command(request.did, request.cid);
-  if (robot.processors < 2 || row == nullptr)
+  if (robot.targets != spec::Targets::Both || row == nullptr)
     return request;
   request.flags |= static_cast<std::uint8_t>(spec::V2Flag::HasTarget);
   request.flags |= static_cast<std::uint8_t>(spec::V2Flag::HasSource);
@@ -199,27 +164,13 @@ bool fits(spec::V2Command command, ByteView data) {
   for (const auto& field : spec::v2_operands) {
     if (field.command != command)
       continue;
-    least += size_of(field.type);
-    if (size_of(field.type) == 0)
-      more = static_cast<std::size_t>(field.most) + 1; // the NUL of a text
+    least += width_of(field.type);
+    if (field.type == V2Type::Data)
+      least += static_cast<std::size_t>(field.least);
+    if (width_of(field.type) == 0)
+      more = static_cast<std::size_t>(field.most - field.least) + 1; // the NUL of a text
   }
   return data.size() >= least && data.size() <= least + more;
-}
-
-std::string_view name_of(const PacketV2& packet) {
-  if (const auto* message = spec::find_v2_message(packet.did, packet.cid))
-    return message->name;
-  const auto* row = spec::find_v2_command(packet.did, packet.cid);
-  return row == nullptr ? std::string_view() : row->name;
-}
-
-std::string fields_of(const PacketV2& packet) {
-  const auto* row = spec::find_v2_command(packet.did, packet.cid);
-  if (row == nullptr || packet.error != 0)
-    return {};
-  return spec::has(packet.flags, spec::V2Flag::Response)
-             ? values(spec::v2_answers, row->command, packet.data)
-             : values(spec::v2_operands, row->command, packet.data);
 }
 
 } // namespace orb::protocol

@@ -27,11 +27,8 @@ PacketV2 address(PacketV2 request, const spec::RobotInfo& robot);
 /// Whether the data of a request has a length that its operands can have.
 bool fits(spec::V2Command command, ByteView data);
 
-/// The name of the command or message; empty where no row has it.
-std::string_view name_of(const PacketV2& packet);
-
-/// What the data means: `speed 60, heading 90, flags 0`; empty where the tables do not say it.
-std::string fields_of(const PacketV2& packet);
+/// How many bytes a field has; 0 for one that takes all that are left.
+std::size_t width_of(spec::V2Type type);
 
 void append_f32(Bytes& out, double value);
 /// Four bytes at `offset`; the caller has checked the size.

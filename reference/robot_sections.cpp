@@ -36,7 +36,7 @@ std::string fields_of(const Fields& fields, spec::V2Command command) {
 }
 
 std::string robots_with(const spec::V2CommandInfo& command) {
-  if (command.robots == spec::V2Robots::All)
+  if (command.robots == spec::v2_set::All)
     return "all";
   std::string out;
   for (const auto& robot : spec::robots)
@@ -70,7 +70,7 @@ Section robots_section() {
                                                            ? "none"
                                                            : fmt::format("{}…", ble.prefix));
     entry.facts.emplace_back("a command each", fmt::format("at least {} ms", row.interval.count()));
-    entry.facts.emplace_back("processors", std::to_string(row.processors));
+    entry.facts.emplace_back("processors", row.targets == spec::Targets::Both ? "2" : "1");
     entry.facts.emplace_back("speed 60", fmt::format("{:.0f} cm/s", spec::speed_cm_s(driving, 60)));
     entry.facts.emplace_back("speed 255",
                              fmt::format("{:.0f} cm/s", spec::speed_cm_s(driving, 255)));

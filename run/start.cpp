@@ -143,6 +143,7 @@ vm::BallOptions ball_options(const Options& options) {
   ball.start = options.start;
   ball.lines_per_second = options.lines_per_second;
   ball.firmware = options.firmware;
+  ball.robot = options.model;
   ball.driving = options.driving.value_or(spec::driving(options.model));
   ball.ram_bytes = options.ram_bytes.value_or(spec::info(options.firmware).ram_bytes());
   ball.ranges = options.ranges;

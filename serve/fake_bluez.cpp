@@ -401,7 +401,7 @@ void Robot::publish_device() {
 
 bool Robot::publishes(const spec::BleCharacteristicInfo& row) const {
   const bool greets = row.characteristic != BleCharacteristic::AntiDosV2 ||
-                      model_ != spec::BleModel::Rvr; // it is open to commands
+                      !spec::is_open(model_);
   return spec::protocol_of(row.characteristic) == protocol_ && greets;
 }
 
@@ -533,7 +533,7 @@ void Robot::connect(Result&& result) {
   stream_.assign(ends[0]);
   peer_.assign(ends[1]);
   connected_ = true;
-  admitted_ = model_ == spec::BleModel::Rvr;
+  admitted_ = spec::is_open(model_);
   ++session_;
   tell(*device_, device_interface, {{"Connected", true}}); // before it is answered, as BlueZ does
   result.returnResults();

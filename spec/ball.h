@@ -25,6 +25,21 @@ struct Driving {
   double turn_gain = ball::turn_gain;
   int dead_steps = static_cast<int>(ball::dead_time.count()) * ball::control_rate / 1000;
 };
+/// A battery, in V: the classic ball's, until a robot has a row of its own.
+struct Battery {
+  double full = ball::full_battery;       ///< at power-on
+  double charged = ball::charged_battery; ///< where charging ends
+  double empty = ball::empty_battery;     ///< the lowest that shows
+  double low = ball::default_low_battery / 100.0;
+  double critical = ball::default_critical_battery / 100.0;
+};
+
+/// Which way a robot's own coordinates point, seen from where it faced at 0,0.
+enum class Axes : unsigned char {
+  RightAhead, ///< x to the right, y ahead
+  AheadLeft   ///< x ahead, y to the left
+};
+
 /// So long a dead time can be, in steps of the control system.
 inline constexpr int most_dead_steps = 63;
 static_assert(Driving{}.dead_steps <= most_dead_steps);

@@ -98,6 +98,15 @@ constexpr const BleNameInfo& info(BleModel model) {
   return ble_names[static_cast<std::size_t>(model)];
 }
 
+/// Whether the robot takes commands without a greeting.
+constexpr bool is_open(BleModel which) {
+#define BLE_OPEN(model, source)                                                                    \
+  if (which == BleModel::model)                                                                    \
+    return true;
+#include "spec/ble.def"
+  return false;
+}
+
 /// The row of the robot that advertises `name`; null for a name that no robot is known to have.
 constexpr const BleNameInfo* find_ble_name(std::string_view name) {
   for (const auto& row : ble_names)

@@ -15,6 +15,31 @@
 /// The robots, and what those of packets v2 understand and say. Source: LIB, PKT.
 namespace orb::spec {
 
+enum class Robot : std::uint8_t {
+#define ROBOT(enumerator, ...) enumerator,
+#include "spec/robots.def"
+};
+
+/// Some robots, a bit each.
+using V2Robots = std::uint32_t;
+constexpr V2Robots only(Robot robot) {
+  return 1U << static_cast<unsigned>(robot);
+}
+/// The sets that rows of commands name.
+namespace v2_set {
+inline constexpr V2Robots Mini = only(Robot::Mini);
+inline constexpr V2Robots Bolt = only(Robot::Bolt);
+inline constexpr V2Robots BoltPlus = only(Robot::BoltPlus);
+inline constexpr V2Robots Rvr = only(Robot::Rvr);
+inline constexpr V2Robots R2 = only(Robot::R2d2) | only(Robot::R2q5);
+inline constexpr V2Robots Droids = R2 | only(Robot::Bb9e);
+inline constexpr V2Robots NotRvr = Mini | Bolt | BoltPlus | Droids;
+inline constexpr V2Robots All = NotRvr | Rvr;
+inline constexpr V2Robots TwoProcessors = Bolt | Rvr;
+inline constexpr V2Robots Matrix = Bolt | BoltPlus;
+inline constexpr V2Robots Infrared = Bolt | BoltPlus | Rvr;
+} // namespace v2_set
+
 enum class V2Command : std::uint16_t {
 #define V2_COMMAND(enumerator, did, cid, ...) enumerator = (did) << 8 | (cid),
 #include "spec/robots.def"
@@ -37,20 +62,14 @@ inline constexpr std::chrono::milliseconds v2_drive_timeout{2000};
 inline constexpr std::uint8_t v2_drive_backward = 1;
 inline constexpr std::uint8_t v2_drive_turbo = 2;
 inline constexpr std::uint8_t v2_drive_fast_turn = 4;
+inline constexpr std::uint8_t v2_drive_left = 0x08;
+inline constexpr std::uint8_t v2_drive_right = 0x10;
+inline constexpr std::uint8_t v2_drive_drift = 0x20;
+/// An RVR sleeps after so long without a packet that resets its time-out, and says so before. [?]
+inline constexpr std::chrono::seconds v2_sleeps_after{300};
+inline constexpr std::chrono::seconds v2_sleep_warning{10};
 
 enum class V2Type : std::uint8_t { U8, U16, U32, S16, F32, Text, Data };
-
-/// Which robots know a command.
-enum class V2Robots : std::uint8_t {
-  All,
-  NotRvr,
-  Rvr,
-  MiniAndRvr,
-  Bolt,
-  Droids,        ///< BB-9E, R2-D2, R2-Q5
-  TwoProcessors, ///< those that have two
-  ByLamps,       ///< those whose lamps it sets
-};
 
 struct V2CommandInfo {
   V2Command command;
@@ -65,12 +84,15 @@ struct V2CommandInfo {
   std::uint8_t cid() const { return static_cast<std::uint8_t>(command); }
 };
 
-inline constexpr auto v2_commands = std::to_array<V2CommandInfo>({
+inline constexpr auto v2_commands = [] {
+  using namespace v2_set;
+  return std::to_array<V2CommandInfo>({
 #define V2_COMMAND(enumerator, did, cid, name, processor, robots, source, example, summary)        \
-  carried(V2CommandInfo{V2Command::enumerator, name, V2Processor::processor, V2Robots::robots,     \
-                        source, example, summary}),
+  carried(V2CommandInfo{V2Command::enumerator, name, V2Processor::processor, robots, source,       \
+                        example, summary}),
 #include "spec/robots.def"
-});
+  });
+}();
 
 /// The row of a command; null for one that no row names.
 constexpr const V2CommandInfo* find_v2_command(std::uint8_t did, std::uint8_t cid) {
@@ -131,6 +153,17 @@ inline constexpr auto v2_messages = std::to_array<V2MessageInfo>({
 #include "spec/robots.def"
 });
 
+struct V2Says {
+  V2Message message;
+  V2Type type;
+  std::string_view name;
+};
+
+inline constexpr auto v2_says = std::to_array<V2Says>({
+#define V2_SAYS(enumerator, type, name) {V2Message::enumerator, V2Type::type, name},
+#include "spec/robots.def"
+});
+
 constexpr const V2MessageInfo* find_v2_message(std::uint8_t did, std::uint8_t cid) {
   for (const auto& row : v2_messages)
     if (static_cast<int>(row.message) == (did << 8 | cid))
@@ -161,6 +194,14 @@ inline constexpr auto v2_sensors = std::to_array<V2SensorInfo>({
 #include "spec/robots.def"
 });
 
+/// The row of a bit of a mask; null for one that no row names.
+constexpr const V2SensorInfo* find_v2_sensor(V2Mask mask, std::uint32_t bit) {
+  for (const auto& row : v2_sensors)
+    if (row.mask == mask && row.bit == bit)
+      return &row;
+  return nullptr;
+}
+
 enum class V2Service : std::uint16_t {
 #define V2_SERVICE(enumerator, id, ...) enumerator = id,
 #include "spec/robots.def"
@@ -174,22 +215,24 @@ struct V2ServiceInfo {
   std::string_view name;
   std::size_t values;
   double greatest;
-  double second; ///< the greatest of its second value
+  std::size_t which; ///< a value, from 0, that has another greatest
+  double other;
   V2Sign sign;
   std::string_view source;
 
-  double most(std::size_t value) const { return value == 1 ? second : greatest; }
+  double most(std::size_t value) const { return value == which ? other : greatest; }
   double least(std::size_t value) const { return sign == V2Sign::Signed ? -most(value) : 0; }
 };
 
 inline constexpr auto v2_services = std::to_array<V2ServiceInfo>({
-#define V2_SERVICE(enumerator, id, processor, name, values, greatest, second, sign, source)        \
+#define V2_SERVICE(enumerator, id, processor, name, values, greatest, which, other, sign, source)  \
   {V2Service::enumerator,                                                                          \
    V2Processor::processor,                                                                         \
    name,                                                                                           \
    values,                                                                                         \
    greatest,                                                                                       \
-   second,                                                                                         \
+   which,                                                                                          \
+   other,                                                                                          \
    V2Sign::sign,                                                                                   \
    source},
 #include "spec/robots.def"
@@ -204,11 +247,8 @@ constexpr const V2ServiceInfo* find_v2_service(std::uint16_t id) {
 
 enum class Packets : std::uint8_t { V1, V2 };
 enum class RobotSensors : std::uint8_t { None, Mask, Services };
-
-enum class Robot : std::uint8_t {
-#define ROBOT(enumerator, ...) enumerator,
-#include "spec/robots.def"
-};
+/// The processors that commands to a robot may name. Any: it has one, and takes both.
+enum class Targets : std::uint8_t { None, Any, First, Both };
 
 struct RobotInfo {
   Robot robot;
@@ -216,7 +256,7 @@ struct RobotInfo {
   std::string_view title; ///< as people call it
   BleModel ble;
   Packets packets;
-  int processors;
+  Targets targets;
   std::chrono::milliseconds interval; ///< from one command to the next, at least
   RobotSensors sensors;
   V2Command lamps;
@@ -227,14 +267,14 @@ struct RobotInfo {
 };
 
 inline constexpr auto robots = std::to_array<RobotInfo>({
-#define ROBOT(enumerator, name, title, ble, packets, processors, interval, sensors, lamps, body,   \
+#define ROBOT(enumerator, name, title, ble, packets, targets, interval, sensors, lamps, body,      \
               aiming, slowest, source)                                                             \
   {Robot::enumerator,                                                                              \
    name,                                                                                           \
    title,                                                                                          \
    BleModel::ble,                                                                                  \
    Packets::packets,                                                                               \
-   processors,                                                                                     \
+   Targets::targets,                                                                               \
    std::chrono::milliseconds{interval},                                                            \
    RobotSensors::sensors,                                                                          \
    V2Command::lamps,                                                                               \
@@ -247,6 +287,30 @@ inline constexpr auto robots = std::to_array<RobotInfo>({
 
 constexpr const RobotInfo& info(Robot robot) {
   return robots[static_cast<std::size_t>(robot)];
+}
+/// The voltages of its battery, and where it is low and critical.
+constexpr Battery battery(Robot which) {
+#define BATTERY(robot, full, charged, empty, low, critical, source)                                \
+  if (which == Robot::robot)                                                                       \
+    return {full, charged, empty, low, critical};
+#include "spec/robots.def"
+  return {};
+}
+/// The axes of its locator and its velocity.
+constexpr Axes axes(Robot which) {
+#define AXES(robot, axes, source)                                                                  \
+  if (which == Robot::robot)                                                                       \
+    return Axes::axes;
+#include "spec/robots.def"
+  return Axes::RightAhead;
+}
+/// So long after it was woken it drops what moves it, though it acknowledges that.
+constexpr std::chrono::milliseconds wakes_in(Robot which) {
+#define WAKES(robot, ms, source)                                                                   \
+  if (which == Robot::robot)                                                                       \
+    return std::chrono::milliseconds{ms};
+#include "spec/robots.def"
+  return {};
 }
 /// How it drives.
 constexpr Driving driving(Robot which) {
@@ -286,19 +350,7 @@ constexpr const RobotLack* find_lack(Robot robot, std::string_view word) {
 
 /// Whether the robot knows the command.
 constexpr bool knows(const RobotInfo& robot, const V2CommandInfo& command) {
-  const bool is_rvr = robot.sensors == RobotSensors::Services;
-  switch (command.robots) {
-  case V2Robots::All: return true;
-  case V2Robots::NotRvr: return !is_rvr;
-  case V2Robots::Rvr: return is_rvr;
-  case V2Robots::MiniAndRvr: return is_rvr || robot.robot == Robot::Mini;
-  case V2Robots::Bolt: return robot.robot == Robot::Bolt;
-  case V2Robots::Droids:
-    return robot.robot == Robot::Bb9e || robot.robot == Robot::R2d2 || robot.robot == Robot::R2q5;
-  case V2Robots::TwoProcessors: return robot.processors > 1;
-  case V2Robots::ByLamps: return command.command == robot.lamps;
-  }
-  return false;
+  return (command.robots & only(robot.robot)) != 0;
 }
 
 /// What a drive command says for a program's speed, 0 to 255, so that 1 moves it; and back.

@@ -4,6 +4,7 @@
 #include "vm/ball_asks.h"
 
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 
 namespace orb::vm {
@@ -25,11 +26,14 @@ ProgramOptions program_options(const BallOptions& options) {
 
 Ball::Ball(const BallOptions& options)
     : asks_(std::make_unique<Asks>(*this)), observer_(options.observer), gate_(options.gate),
-      body_(options.seed, options.driving, options.start), link_(options.wire),
+      body_(options.seed, options.driving, options.start, options.robot), link_(options.wire),
       drive_(body_, settings_), power_(settings_),
       programs_(program_options(options), options.seed), macros_(asks_->of_macro),
       dispatcher_(asks_->of_client, options.seed, options.firmware) {
   body_.observe(options.steps);
+  const auto battery = spec::battery(options.robot);
+  settings_.low_battery_cv = static_cast<int>(std::lround(battery.low * 100));
+  settings_.critical_battery_cv = static_cast<int>(std::lround(battery.critical * 100));
 }
 
 Ball::Ball(const Ball& other)
@@ -39,7 +43,7 @@ Ball::Ball(const Ball& other)
       programs_(other.programs_), macros_(other.macros_, asks_->of_macro),
       streamer_(other.streamer_), dispatcher_(other.dispatcher_, asks_->of_client),
       script_(other.script_), interrupted_(other.interrupted_), idle_since_(other.idle_since_),
-      double_shake_(other.double_shake_), deaf_until_(other.deaf_until_),
+      double_shake_(other.double_shake_), shakes_(other.shakes_), deaf_until_(other.deaf_until_),
       watch_at_(other.watch_at_), felt_at_(other.felt_at_), was_moving_(other.was_moving_),
       rest_unseen_(other.rest_unseen_) {}
 

@@ -7,6 +7,7 @@
 #include "vm/api/streamer.h"
 #include "vm/body/ask.h"
 #include "vm/body/body.h"
+#include "vm/body/shake_sense.h"
 #include "vm/drive.h"
 #include "vm/lamps.h"
 #include "vm/link.h"
@@ -29,7 +30,8 @@ namespace orb::vm {
 struct BallOptions : ProgramOptions {
   std::uint64_t seed = 1;
   spec::Firmware firmware = spec::default_firmware;
-  spec::Driving driving; ///< how it drives
+  spec::Robot robot = spec::Robot::Sphero; ///< whose battery and axes it has
+  spec::Driving driving;                   ///< how it drives
   Placement start;       ///< where it stands in its world
   Wire wire = Wire::Paced;
   Observer* observer = nullptr;  ///< must outlive the ball
@@ -213,6 +215,7 @@ private:
   bool interrupted_ = false;
   std::optional<Instant> idle_since_;
   bool double_shake_ = false;
+  ShakeSense shakes_; ///< of a robot that is elsewhere
   Instant deaf_until_{}; ///< the dead time after a collision
   Instant watch_at_ = never;
   std::optional<Instant> felt_at_; ///< when a robot elsewhere said something last

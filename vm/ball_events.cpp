@@ -71,6 +71,7 @@ void Ball::feel(const Sample& sample) {
   body_.advance_to(now_);
   body_.feel(sample);
   felt_at_ = now_;
+  double_shake_ = double_shake_ || shakes_.feel(sample.acceleration_g, now_);
   watch_motion();
 }
 

@@ -19,6 +19,11 @@ using spec::V2Processor;
 
 constexpr double cm_per_m = 100;   // streams are in metres
 constexpr double hundredths = 100; // of a volt, of the whole
+/// A client listens for a message only once it has read the answer before it.
+constexpr Duration after_answer = 8ms;
+/// Where a gyroscope is at its end, in degrees per second. [?]
+constexpr double gyro_end = 2000;
+constexpr double encoder_steps_per_cm = 40; // [?]
 
 /// The device ids whose commands a sleeping robot obeys.
 bool serves_asleep(std::uint8_t did) {
@@ -37,6 +42,13 @@ bool values_fit(V2Command command, ByteView data) {
     else if (field.type == spec::V2Type::U16) {
       value = read_u16(data, at);
       at += 2;
+    } else if (field.type == spec::V2Type::F32) {
+      const double number = protocol::read_f32(data, at);
+      at += sizeof(float);
+      if (!(number >= static_cast<double>(field.least) &&
+            number <= static_cast<double>(field.most)))
+        return false;
+      continue;
     } else
       return true; // what follows takes everything
     if (value < field.least || value > field.most)
@@ -64,6 +76,8 @@ void RobotV2::connect() {
 void RobotV2::disconnect() {
   stop_streams();
   out_.clear();
+  soon_.clear();
+  wishes_ = {};
 }
 
 std::optional<Bytes> RobotV2::take_packet() {
@@ -72,6 +86,12 @@ std::optional<Bytes> RobotV2::take_packet() {
   auto packet = std::move(out_.front());
   out_.pop_front();
   return packet;
+}
+
+void RobotV2::stay_awake() {
+  said_will_sleep_ = false;
+  const bool is_rvr = robot_.sensors == spec::RobotSensors::Services;
+  sleeps_at_ = awake_ && is_rvr ? ball_.now() + spec::v2_sleeps_after : never;
 }
 
 void RobotV2::receive(ByteView bytes) {
@@ -85,6 +105,8 @@ void RobotV2::receive(ByteView bytes) {
 void RobotV2::obey(const PacketV2& request) {
   Bytes answer;
   const auto error = perform(request, answer);
+  if (spec::has(request.flags, V2Flag::Activity))
+    stay_awake();
   const bool only_errors = spec::has(request.flags, V2Flag::OnlyErrorResponse);
   if (!spec::has(request.flags, V2Flag::RequestResponse) ||
       (only_errors && error == V2Error::Success))
@@ -107,27 +129,16 @@ void RobotV2::obey(const PacketV2& request) {
   if (error == V2Error::Success)
     response.data = std::move(answer);
   out_.push_back(encode(response));
-  if (error != V2Error::Success)
-    return;
-  // What a command leads to follows its answer.
-  const auto* row = spec::find_v2_command(request.did, request.cid);
-  if (row->command == V2Command::Sleep || row->command == V2Command::DeepSleep)
-    say(spec::V2Message::DidSleep, V2Processor::Primary, {});
-  if (row->command == V2Command::GetSecondVersion) {
-    Bytes version;
-    for (const unsigned part : {5U, 1U, 0U})
-      append_u16(version, part);
-    say(spec::V2Message::SecondVersion, V2Processor::Secondary, std::move(version));
-  }
 }
 
 V2Error RobotV2::perform(const PacketV2& request, Bytes& answer) {
   const bool targeted = spec::has(request.flags, V2Flag::HasTarget);
   const auto first = spec::v2_target(V2Processor::Primary);
   const auto second = spec::v2_target(V2Processor::Secondary);
-  // A robot with one processor takes what names the second, too: clients that drive real ones do
-  // so.
-  if (targeted && request.target != first && request.target != second)
+  // Most robots with one processor take what names the second, too: clients that drive real ones
+  // do so.
+  if (targeted && request.target != first &&
+      (request.target != second || robot_.targets == spec::Targets::First))
     return V2Error::BadTarget;
   if (std::none_of(spec::v2_commands.begin(), spec::v2_commands.end(),
                    [&](const auto& row) { return row.did() == request.did; }))
@@ -135,8 +146,10 @@ V2Error RobotV2::perform(const PacketV2& request, Bytes& answer) {
   const auto* row = spec::find_v2_command(request.did, request.cid);
   if (row == nullptr || !spec::knows(robot_, *row))
     return V2Error::BadCommand;
-  if (targeted && robot_.processors > 1 && row->processor != V2Processor::Any &&
-      request.target != spec::v2_target(row->processor))
+  const bool is_rvr = robot_.sensors == spec::RobotSensors::Services;
+  const bool lamps_of_rvr = is_rvr && row->command == V2Command::MatrixColor; // of its first
+  if (targeted && robot_.targets == spec::Targets::Both && row->processor != V2Processor::Any &&
+      request.target != spec::v2_target(row->processor) && !lamps_of_rvr)
     return V2Error::BadCommand;
   if (!protocol::fits(row->command, request.data))
     return V2Error::BadLength;
@@ -174,64 +187,127 @@ V2Error RobotV2::perform(V2Command command, const PacketV2& request, Bytes& answ
   case V2Command::GetBoardRevision: answer = {1}; break;
   case V2Command::GetMac: append_text(answer, address_); break;
   case V2Command::GetModel: append_text(answer, robot_.title); break;
-  case V2Command::GetSecondVersion: break;
+  case V2Command::GetStatsId: answer = {0, 0}; break;
+  case V2Command::GetSecondVersion: {
+    Bytes parts;
+    for (const unsigned part : {5U, 1U, 0U})
+      append_u16(parts, part);
+    say_soon(spec::V2Message::SecondVersion, V2Processor::Secondary, std::move(parts));
+    break;
+  }
+  case V2Command::GetProcessorName:
+    append_text(answer, request.target == spec::v2_target(V2Processor::Secondary) ? "ST" : "Nordic");
+    break;
   case V2Command::DeepSleep:
   case V2Command::Sleep: fall_asleep(); break;
   case V2Command::GetVoltage:
     append_u16(answer, static_cast<std::uint32_t>(std::lround(body.battery_v() * hundredths)));
     break;
   case V2Command::GetBatteryState: answer = {std::uint8_t(body.charging() ? 1 : 2)}; break;
-  case V2Command::Wake: awake_ = true; break;
+  case V2Command::BatteryNotify: wishes_.battery = data[0] != 0; break;
+  case V2Command::Wake:
+    if (!std::exchange(awake_, true)) {
+      moves_from_ = ball_.now() + spec::wakes_in(robot_.robot);
+      reset_locator(); // it follows a new yaw zero, as clients expect whatever its flags
+      say_soon(spec::V2Message::Woke, V2Processor::Primary, {});
+    }
+    break;
   case V2Command::GetPercent: {
-    constexpr double empty = 6.5;
-    constexpr double full = 7.8;
-    const double part = std::clamp((body.battery_v() - empty) / (full - empty), 0.0, 1.0);
+    const auto battery = spec::battery(robot_.robot);
+    const double part =
+        std::clamp((body.battery_v() - battery.empty) / (battery.charged - battery.empty), 0.0, 1.0);
     answer = {static_cast<std::uint8_t>(std::lround(part * hundredths))};
     break;
   }
-  case V2Command::GetVoltageState: {
-    constexpr double low = 7.0;
-    constexpr double critical = 6.5;
-    answer = {std::uint8_t(body.battery_v() <= critical ? 3 : body.battery_v() <= low ? 2 : 1)};
+  case V2Command::GetVoltageState: answer = {voltage_state()}; break;
+  case V2Command::VoltageNotify: wishes_.voltage = data[0] != 0; break;
+  case V2Command::GetChargerState: answer = {charger_state()}; break;
+  case V2Command::ChargerNotify: wishes_.charger = data[0] != 0; break;
+  case V2Command::GetVolts: protocol::append_f32(answer, body.battery_v()); break;
+  case V2Command::GetVoltThresholds: {
+    constexpr double hysteresis = 0.1; // [?]
+    const auto battery = spec::battery(robot_.robot);
+    for (const double volts : {battery.critical, battery.low, hysteresis})
+      protocol::append_f32(answer, volts);
     break;
   }
+  case V2Command::ScreenMode:
+  case V2Command::ScreenText:
+  case V2Command::ScreenFace:
+  case V2Command::ScreenRotation:
+  case V2Command::ScreenPicture: break; // it has no screen to show them on
+  case V2Command::ScreenColor: ball_.set_led({data[0], data[1], data[2]}); break;
+  case V2Command::ScreenClear: ball_.set_led({}); break;
   case V2Command::RawMotors: return set_motors(data);
   case V2Command::ResetYaw: ball_.drive(SetHeading{0}); break;
   case V2Command::DriveWithHeading: drive(data); break;
   case V2Command::SetStabilization:
+  case V2Command::Stabilize:
     ball_.drive(data[0] == 0 ? Stabilization::Off : Stabilization::On);
     break;
   case V2Command::PlayAnimation:
+  case V2Command::StopAnimation: break; // it moves and shines for nobody else
   case V2Command::LegAction:
-  case V2Command::SetHead: break; // neither moves the ball that it is
+    if (is_awake_enough() && data[0] != 0)
+      legs_ = data[0];
+    break;
+  case V2Command::GetLegAction: answer = {legs_}; break;
+  case V2Command::SetHead: head_deg_ = protocol::read_f32(data, 0); break;
+  case V2Command::GetHead: protocol::append_f32(answer, head_deg_); break;
   case V2Command::StreamMask:
     interval_ = std::chrono::milliseconds{read_u16(data, 0)};
     left_ = data[2];
     mask_ = read_u32(data, 3);
     start_mask();
     break;
+  case V2Command::GetStreamMask:
+    append_u16(answer, static_cast<std::uint32_t>(interval_ / 1ms));
+    answer.push_back(static_cast<std::uint8_t>(left_));
+    append_u32(answer, mask_);
+    break;
   case V2Command::StreamExtended:
     extended_ = read_u32(data, 0);
     start_mask();
     break;
-  case V2Command::CollisionDetection:
-    // In the order of API v1, where each threshold is followed by its part for speed.
-    ask_ball(spec::ApiCommand::ConfigureCollisionDetection,
-             {data[0], data[1], data[3], data[2], data[4], data[5]});
-    break;
-  case V2Command::ResetLocator: {
-    constexpr std::size_t operands = 7;
-    Bytes zero(operands, 0);
-    zero[0] = 1;
-    ask_ball(spec::ApiCommand::ConfigureLocator, std::move(zero));
+  case V2Command::GetStreamExtended: append_u32(answer, extended_); break;
+  case V2Command::GyroMaxNotify: wishes_.gyro_max = data[0] != 0; break;
+  case V2Command::CollisionDetection: return set_collisions(data);
+  case V2Command::CollisionNotify: wishes_.collisions = data[0] != 0; break;
+  case V2Command::CollisionSense: {
+    // A level is a threshold here, of either axis. [?]
+    constexpr int step = 20;
+    const auto threshold = static_cast<std::uint8_t>((data[1] + 1) * step);
+    const auto dead_time = static_cast<std::uint8_t>(std::min(read_u16(data, 2) / 10, UINT8_MAX));
+    return set_collisions(Bytes{1, threshold, 0, threshold, 0, dead_time});
+  }
+  case V2Command::CollisionSenseNotify: wishes_.sensed_collisions = data[0] != 0; break;
+  case V2Command::ResetLocator: reset_locator(); break;
+  case V2Command::LocatorFlags: break; // sources disagree on what 1 means
+  case V2Command::GetLight: protocol::append_f32(answer, sense(spec::V2Sensor::Light)); break;
+  case V2Command::CalibrateNorth: {
+    // North is where it faced in its world at power-on.
+    Bytes degrees;
+    append_u16(degrees, static_cast<std::uint32_t>(
+                            std::lround(wrap_360(body.yaw_deg() - body.world_pose().heading_deg)) %
+                            spec::ball::full_circle));
+    say_soon(spec::V2Message::North, V2Processor::Secondary, std::move(degrees));
     break;
   }
-  case V2Command::LocatorFlags: break;
+  case V2Command::GetInfrared: append_u32(answer, 0); break; // it is alone
+  case V2Command::StartBroadcast:
+  case V2Command::StartFollow:
+  case V2Command::StopBroadcast:
+  case V2Command::StopFollow:
+  case V2Command::StartEvade:
+  case V2Command::StopEvade:
+  case V2Command::InfraredNotify:
+  case V2Command::SendInfrared:
+  case V2Command::ColorDetection: break;
   case V2Command::StreamConfigure: return configure(request);
   case V2Command::StreamStart: {
     auto& stream = services_of(request);
     stream.period = std::chrono::milliseconds{read_u16(data, 0)};
-    if (stream.services.empty())
+    if (stream.tokens.empty())
       return V2Error::Failed;
     if (stream.period == Duration{})
       return V2Error::BadParameter;
@@ -240,13 +316,36 @@ V2Error RobotV2::perform(V2Command command, const PacketV2& request, Bytes& answ
   }
   case V2Command::StreamStop: services_of(request).next = never; break;
   case V2Command::StreamClear: services_of(request) = {}; break;
+  case V2Command::SetName: name_ = as_text(data).substr(0, as_text(data).find('\0')); break;
+  case V2Command::GetName:
+  case V2Command::GetAdvertisedName: append_text(answer, name()); break;
+  case V2Command::PlaySound:
+  case V2Command::StopSounds: break; // nobody hears it
+  case V2Command::SetVolume: volume_ = data[0]; break;
+  case V2Command::GetVolume: answer = {volume_}; break;
   case V2Command::SetLeds: return set_lamps(read_u16(data, 0), data.subspan(2));
   case V2Command::SetLedsLong: return set_lamps(read_u32(data, 0), data.subspan(4));
   case V2Command::SetLedsShort: return set_lamps(data[0], data.subspan(1));
   case V2Command::MatrixPixel:
+  case V2Command::MatrixFrame:
+  case V2Command::MatrixSaveFrame:
+  case V2Command::MatrixSaveAnimation:
+  case V2Command::MatrixPlay:
+  case V2Command::MatrixShowFrame:
+  case V2Command::MatrixFrames:
+  case V2Command::MatrixForget:
+  case V2Command::MatrixPause:
+  case V2Command::MatrixResume:
+  case V2Command::MatrixReset:
+  case V2Command::MatrixOverride:
+  case V2Command::MatrixRotation:
   case V2Command::MatrixText:
-  case V2Command::MatrixCharacter: break;
+  case V2Command::MatrixLine:
+  case V2Command::MatrixFill:
+  case V2Command::MatrixCharacter:
+  case V2Command::MatrixPlayLoop: break;
   case V2Command::MatrixColor: ball_.set_led({data[0], data[1], data[2]}); break;
+  case V2Command::ReleaseLeds: ball_.set_led({}); break;
   case V2Command::None: return V2Error::BadCommand;
   }
   return V2Error::Success;
@@ -262,7 +361,44 @@ void RobotV2::ask_ball(spec::ApiCommand command, Bytes data) {
   ball_.advance_to(ball_.now());
 }
 
+void RobotV2::reset_locator() {
+  constexpr std::size_t operands = 7; // flags 0: +y is heading 0
+  ask_ball(spec::ApiCommand::ConfigureLocator, Bytes(operands, 0));
+}
+
+/// In the order of API v1, too: each threshold is followed by what full speed adds to it.
+V2Error RobotV2::set_collisions(ByteView data) {
+  ask_ball(spec::ApiCommand::ConfigureCollisionDetection, {data.begin(), data.end()});
+  return V2Error::Success;
+}
+
+std::uint8_t RobotV2::voltage_state() const {
+  const auto battery = spec::battery(robot_.robot);
+  const double volts = ball_.body().battery_v();
+  return volts <= battery.critical ? 3 : volts <= battery.low ? 2 : 1;
+}
+
+std::uint8_t RobotV2::charger_state() const {
+  if (!ball_.body().charging())
+    return 1;
+  return ball_.body().battery_v() < spec::battery(robot_.robot).charged ? 2 : 3;
+}
+
+/// As it advertises itself: `SB-1A2B`.
+std::string RobotV2::name() const {
+  if (!name_.empty())
+    return name_;
+  std::string digits;
+  std::copy_if(address_.begin(), address_.end(), std::back_inserter(digits),
+               [](char c) { return c != ':'; });
+  constexpr std::size_t shown = 4;
+  return std::string(spec::info(robot_.ble).prefix) +
+         digits.substr(digits.size() - std::min(shown, digits.size()));
+}
+
 void RobotV2::drive(ByteView data) {
+  if (!is_awake_enough())
+    return;
   const int speed = spec::speed_from_wire(robot_, data[0]);
   const int flags = data[3];
   const int heading = read_u16(data, 1) +
@@ -277,6 +413,8 @@ void RobotV2::drive(ByteView data) {
 }
 
 V2Error RobotV2::set_motors(ByteView data) {
+  if (!is_awake_enough())
+    return V2Error::Success;
   const auto motor = [&](std::size_t at) {
     constexpr MotorMode modes[] = {MotorMode::Off, MotorMode::Forward, MotorMode::Reverse};
     return Motor{modes[data[at]], data[at + 1]};
@@ -300,7 +438,7 @@ V2Error RobotV2::set_lamps(std::uint32_t mask, ByteView values) {
   }
   if (robot_.aiming != 0 && (mask & robot_.aiming) != 0)
     ask_ball(spec::ApiCommand::SetBackLed,
-             {lamps_[static_cast<std::size_t>(std::countr_zero(robot_.aiming))]});
+             {lamps_[static_cast<std::size_t>(std::bit_width(robot_.aiming)) - 1]});
   return V2Error::Success;
 }
 
@@ -310,6 +448,8 @@ void RobotV2::fall_asleep() {
   stop_streams();
   ball_.set_led({});
   awake_ = false;
+  sleeps_at_ = never;
+  say_soon(spec::V2Message::DidSleep, V2Processor::Primary, {});
 }
 
 // Streams.
@@ -341,12 +481,12 @@ V2Error RobotV2::configure(const PacketV2& request) {
   std::vector<Service> services;
   for (std::size_t at = 0; at < list.size(); at += entry) {
     const auto* row = spec::find_v2_service(read_u16(list, at));
-    if (row == nullptr || row->processor != processor || list[at + 2] > largest)
+    if (row == nullptr || list[at + 2] > largest ||
+        (row->processor != processor && row->processor != V2Processor::Any))
       return V2Error::BadParameter;
     services.push_back({row, bits[list[at + 2]]});
   }
-  stream.token = request.data[0];
-  stream.services = std::move(services);
+  stream.tokens[request.data[0]] = std::move(services);
   return V2Error::Success;
 }
 
@@ -364,6 +504,7 @@ double RobotV2::sense(spec::V2Sensor sensor) const {
   case V2Sensor::AccelX: return body.acceleration_g().x;
   case V2Sensor::AccelY: return body.acceleration_g().y;
   case V2Sensor::AccelZ: return body.acceleration_g().z;
+  case V2Sensor::AccelOne: return body.acceleration_total_g();
   case V2Sensor::LocatorX: return body.locator_cm().x / cm_per_m;
   case V2Sensor::LocatorY: return body.locator_cm().y / cm_per_m;
   case V2Sensor::VelocityX: return body.velocity_cm_s().x / cm_per_m;
@@ -372,10 +513,11 @@ double RobotV2::sense(spec::V2Sensor sensor) const {
     return vm::length(body.velocity_cm_s().x, body.velocity_cm_s().y) / cm_per_m;
   case V2Sensor::CoreTime:
     return std::chrono::duration<double>(ball_.now().time_since_epoch()).count();
+  case V2Sensor::Head: return head_deg_;
   case V2Sensor::GyroX: return body.rotation_deg_s().x;
   case V2Sensor::GyroY: return body.rotation_deg_s().y;
   case V2Sensor::GyroZ: return body.rotation_deg_s().z;
-  case V2Sensor::Light: return 0;
+  case V2Sensor::Light: return spec::ball::room_light;
   }
   return 0;
 }
@@ -395,15 +537,23 @@ std::vector<double> RobotV2::sense(spec::V2Service service) const {
   case V2Service::Velocity: return of(V2Sensor::VelocityX, V2Sensor::VelocityY);
   case V2Service::Speed: return of(V2Sensor::Speed);
   case V2Service::Light: return of(V2Sensor::Light);
+  case V2Service::CoreTime: {
+    const auto ticks = static_cast<std::uint64_t>(ball_.now().time_since_epoch() / 1ms);
+    return {static_cast<double>(ticks >> 32U), static_cast<double>(ticks & UINT32_MAX)};
+  }
+  case V2Service::Encoders: {
+    const double steps = std::floor(ball_.body().way_cm() * encoder_steps_per_cm);
+    return {steps, steps};
+  }
   case V2Service::Color: break;
   }
   return std::vector<double>(spec::find_v2_service(static_cast<std::uint16_t>(service))->values);
 }
 
-void RobotV2::say(spec::V2Message message, V2Processor processor, Bytes data) {
+Bytes RobotV2::message(spec::V2Message message, V2Processor processor, Bytes data) const {
   PacketV2 packet;
   packet.flags = static_cast<std::uint8_t>(V2Flag::Activity);
-  if (robot_.processors > 1) {
+  if (robot_.targets == spec::Targets::Both) {
     packet.flags |= static_cast<std::uint8_t>(V2Flag::HasTarget);
     packet.flags |= static_cast<std::uint8_t>(V2Flag::HasSource);
     packet.target = spec::v2_client;
@@ -413,14 +563,28 @@ void RobotV2::say(spec::V2Message message, V2Processor processor, Bytes data) {
   packet.cid = static_cast<std::uint8_t>(message);
   packet.seq = spec::v2_message_seq;
   packet.data = std::move(data);
-  out_.push_back(encode(packet));
+  return encode(packet);
 }
 
+void RobotV2::say(spec::V2Message which, V2Processor processor, Bytes data) {
+  out_.push_back(message(which, processor, std::move(data)));
+}
+
+/// What an answer leads to: it follows the answer by a little.
+void RobotV2::say_soon(spec::V2Message which, V2Processor processor, Bytes data) {
+  soon_.emplace_back(ball_.now() + after_answer, message(which, processor, std::move(data)));
+}
+
+/// A float for each bit of the masks, the highest first, whatever it means.
 void RobotV2::say_sample() {
   Bytes data;
-  for (const auto& row : spec::v2_sensors)
-    if (((row.mask == spec::V2Mask::Base ? mask_ : extended_) & row.bit) != 0)
-      protocol::append_f32(data, sense(row.sensor));
+  for (const auto mask : {spec::V2Mask::Base, spec::V2Mask::Extended})
+    for (std::uint32_t bit = 1U << 31; bit != 0; bit >>= 1) {
+      if (((mask == spec::V2Mask::Base ? mask_ : extended_) & bit) == 0)
+        continue;
+      const auto* row = spec::find_v2_sensor(mask, bit);
+      protocol::append_f32(data, row == nullptr ? 0 : sense(row->sensor));
+    }
   say(spec::V2Message::Sample, V2Processor::Secondary, std::move(data));
   next_sample_ += interval_;
   if (left_ > 0 && --left_ == 0)
@@ -428,20 +592,22 @@ void RobotV2::say_sample() {
 }
 
 void RobotV2::say_services(Services& stream, V2Processor processor) {
-  Bytes data{stream.token};
-  for (const auto& [row, bits] : stream.services) {
-    const auto values = sense(row->service);
-    for (std::size_t i = 0; i < values.size(); ++i) {
-      const double most = row->most(i);
-      const double least = row->least(i);
-      const double whole = std::exp2(bits) - 1;
-      const double part = (std::clamp(values[i], least, most) - least) / (most - least);
-      const auto number = static_cast<std::uint32_t>(std::llround(part * whole));
-      for (int shift = bits - 8; shift >= 0; shift -= 8)
-        data.push_back(static_cast<std::uint8_t>(number >> shift));
+  for (const auto& [token, services] : stream.tokens) {
+    Bytes data{token};
+    for (const auto& [row, bits] : services) {
+      const auto values = sense(row->service);
+      for (std::size_t i = 0; i < values.size(); ++i) {
+        const double most = row->most(i);
+        const double least = row->least(i);
+        const double whole = std::exp2(bits) - 1;
+        const double part = (std::clamp(values[i], least, most) - least) / (most - least);
+        const auto number = static_cast<std::uint32_t>(std::llround(part * whole));
+        for (int shift = bits - 8; shift >= 0; shift -= 8)
+          data.push_back(static_cast<std::uint8_t>(number >> shift));
+      }
     }
+    say(spec::V2Message::ServiceSample, processor, std::move(data));
   }
-  say(spec::V2Message::ServiceSample, processor, std::move(data));
   stream.next += stream.period;
 }
 
@@ -449,26 +615,62 @@ void RobotV2::say_services(Services& stream, V2Processor processor) {
 void RobotV2::hear_ball() {
   from_ball_.feed(ball_.take_output());
   while (const auto item = from_ball_.next()) {
-    constexpr std::size_t v1_size = 16;
     if (item->kind != protocol::Item::Kind::Async ||
-        item->code != static_cast<std::uint8_t>(spec::AsyncId::Collision) ||
-        item->data.size() != v1_size)
+        item->code != static_cast<std::uint8_t>(spec::AsyncId::Collision))
       continue;
-    // x y z, axis and two powers are the same; then a third power.
-    constexpr std::ptrdiff_t same = 11;
-    Bytes data(item->data.begin(), item->data.begin() + same);
-    append_u16(data, 0);
-    data.insert(data.end(), item->data.begin() + same, item->data.end());
-    say(spec::V2Message::Collision, V2Processor::Secondary, std::move(data));
+    if (wishes_.sensed_collisions)
+      say(spec::V2Message::CollisionSensed, V2Processor::Secondary, {item->data.end() - 1, item->data.end()});
+    else if (wishes_.collisions) // the same bytes
+      say(spec::V2Message::Collision, V2Processor::Secondary,
+          {item->data.begin(), item->data.end()});
   }
 }
 
+/// What changes by itself, for clients that want to know.
+void RobotV2::watch_charger() {
+  const bool charging = ball_.body().charging();
+  if (std::exchange(was_charging_, charging) != charging) {
+    if (wishes_.charger)
+      say(spec::V2Message::ChargerState, V2Processor::Primary, {charger_state()});
+    if (wishes_.battery)
+      say(spec::V2Message::BatteryState, V2Processor::Primary, {std::uint8_t(charging ? 1 : 2)});
+  }
+  const auto state = voltage_state();
+  const auto before = std::exchange(was_voltage_state_, state);
+  if (wishes_.voltage && before != 0 && before != state)
+    say(spec::V2Message::VoltageState, V2Processor::Primary, {state});
+}
+
+void RobotV2::watch_rotation() {
+  const auto rate = ball_.body().rotation_deg_s();
+  std::uint8_t flags = 0;
+  unsigned bit = 0;
+  for (const double value : {rate.x, -rate.x, rate.y, -rate.y, rate.z, -rate.z})
+    flags = static_cast<std::uint8_t>(flags | (value >= gyro_end ? 1U << bit++ : (++bit, 0U)));
+  if (!std::exchange(was_turning_fast_, flags != 0) && flags != 0 && wishes_.gyro_max)
+    say(spec::V2Message::GyroMax, V2Processor::Secondary, {flags});
+}
+
 Instant RobotV2::next_event() const {
-  return std::min({drives_until_, next_sample_, first_.next, second_.next});
+  return std::min({drives_until_, next_sample_, first_.next, second_.next,
+                   soon_.empty() ? never : soon_.front().first,
+                   said_will_sleep_ || sleeps_at_ == never
+                       ? sleeps_at_
+                       : sleeps_at_ - Duration{spec::v2_sleep_warning}});
 }
 
 void RobotV2::run() {
   const auto now = ball_.now();
+  for (; !soon_.empty() && soon_.front().first <= now; soon_.pop_front())
+    out_.push_back(std::move(soon_.front().second));
+  if (sleeps_at_ <= now)
+    fall_asleep();
+  else if (!said_will_sleep_ && sleeps_at_ != never && sleeps_at_ - now <= spec::v2_sleep_warning) {
+    said_will_sleep_ = true;
+    say(spec::V2Message::WillSleep, V2Processor::Primary, {});
+  }
+  watch_charger();
+  watch_rotation();
   if (drives_until_ <= now) {
     drives_until_ = never;
     ball_.drive(Stop{});

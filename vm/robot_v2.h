@@ -10,6 +10,7 @@
 #include <array>
 #include <cstdint>
 #include <deque>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -41,26 +42,45 @@ private:
     const spec::V2ServiceInfo* row;
     int bits;
   };
-  /// A stream of an RVR's processor.
+  /// The streams of an RVR's processor: several tokens, one period.
   struct Services {
-    std::uint8_t token = 0;
-    std::vector<Service> services;
+    std::map<std::uint8_t, std::vector<Service>> tokens;
     Duration period{};
     Instant next = never;
+  };
+  /// What a client has switched on.
+  struct Wishes {
+    bool collisions = true;
+    bool sensed_collisions = false; ///< as a BOLT+ says it
+    bool battery = false;
+    bool charger = false;
+    bool gyro_max = false;
+    bool voltage = false;
   };
 
   void obey(const protocol::PacketV2& request);
   spec::V2Error perform(const protocol::PacketV2& request, Bytes& answer);
   spec::V2Error perform(spec::V2Command command, const protocol::PacketV2& request, Bytes& answer);
   spec::V2Error set_lamps(std::uint32_t mask, ByteView values);
+  spec::V2Error set_collisions(ByteView data);
   spec::V2Error set_motors(ByteView data);
   spec::V2Error configure(const protocol::PacketV2& request);
+  void reset_locator();
   void drive(ByteView data);
   void fall_asleep();
   void stop_streams();
   void start_mask();
   void ask_ball(spec::ApiCommand command, Bytes data);
   void say(spec::V2Message message, spec::V2Processor processor, Bytes data);
+  void say_soon(spec::V2Message message, spec::V2Processor processor, Bytes data);
+  Bytes message(spec::V2Message message, spec::V2Processor processor, Bytes data) const;
+  void watch_charger();
+  void watch_rotation();
+  std::uint8_t voltage_state() const;
+  std::uint8_t charger_state() const;
+  std::string name() const;
+  bool is_awake_enough() const { return awake_ && ball_.now() >= moves_from_; }
+  void stay_awake();
   void say_sample();
   void say_services(Services& stream, spec::V2Processor processor);
   double sense(spec::V2Sensor sensor) const;
@@ -74,7 +94,19 @@ private:
   protocol::DecoderV2 decoder_;
   protocol::Decoder from_ball_{protocol::Direction::FromBall};
   std::deque<Bytes> out_;
+  std::deque<std::pair<Instant, Bytes>> soon_; ///< messages that follow an answer
   bool awake_ = false;
+  Instant moves_from_{};       ///< until then it drops what moves it
+  Instant sleeps_at_ = never;  ///< without another packet
+  bool said_will_sleep_ = false;
+  Wishes wishes_;
+  bool was_charging_ = false;
+  bool was_turning_fast_ = false;
+  std::uint8_t was_voltage_state_ = 0;
+  std::string name_; ///< that a client gave it
+  double head_deg_ = 0;
+  std::uint8_t legs_ = 2;
+  std::uint8_t volume_ = 255;
   Instant drives_until_ = never;
   std::array<std::uint8_t, 32> lamps_{};
 

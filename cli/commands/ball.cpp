@@ -75,6 +75,7 @@ void run_ball(Context& context, const BallArguments& arguments) {
     options.robot = profile->robot;
     options.ball.driving = profile->driving;
   }
+  options.ball.robot = options.robot;
   const bool is_v2 = spec::info(options.robot).packets == spec::Packets::V2;
   if (is_v2 && !arguments.state.empty())
     return fail(context, {ExitCode::Usage, fmt::format("a {} stores no programs or settings; "

@@ -4,6 +4,7 @@
 #include "disk/disk.h"
 
 #include "protocol/describe.h"
+#include "protocol/describe_v2.h"
 #include "protocol/packet_v2.h"
 #include "protocol/recording.h"
 
@@ -113,7 +114,7 @@ std::string_view kind_name(const protocol::ItemV2& item) {
   return "";
 }
 
-Json packet_json(const protocol::ItemV2& item) {
+Json packet_json(const protocol::ItemV2& item, protocol::DescriberV2& describer) {
   Json json{{"kind", kind_name(item)}};
   if (item.kind == protocol::ItemV2::Kind::Packet) {
     const auto& packet = item.packet;
@@ -122,19 +123,25 @@ Json packet_json(const protocol::ItemV2& item) {
     if (json["kind"] == "response")
       json["error"] = packet.error;
     json["data"] = to_hex(packet.data);
+    if (const auto name = name_of(packet); !name.empty())
+      json["name"] = name;
+    describer.describe(item); // it hears all
+    if (const auto fields = describer.fields_of(packet); !fields.empty())
+      json["meaning"] = fields;
   }
   json["raw"] = to_hex(item.raw);
   return json;
 }
 
 void print_v2(const Input& input, bool as_json) {
+  protocol::DescriberV2 describer;
   // Both directions share one format; the flags tell answers from commands.
   const auto print = [&](protocol::DecoderV2& decoder, std::string_view prefix) {
     while (const auto item = decoder.next())
       if (as_json)
-        print_json(packet_json(*item));
+        print_json(packet_json(*item, describer));
       else
-        print_out(fmt::format("{}{}\n", prefix, describe(*item)));
+        print_out(fmt::format("{}{}\n", prefix, describer.describe(*item)));
   };
   protocol::DecoderV2 to_ball, from_ball;
   if (input.recording.empty()) {
@@ -164,6 +171,39 @@ std::size_t understood(ByteView bytes, Direction direction) {
     if (item->kind == Item::Kind::Command || item->kind == Item::Kind::Response ||
         item->kind == Item::Kind::Async)
       count += item->raw.size();
+  return count;
+}
+
+std::size_t understood_as_v2(ByteView bytes) {
+  protocol::DecoderV2 decoder;
+  decoder.feed(bytes);
+  std::size_t count = 0;
+  while (const auto item = decoder.next())
+    if (item->kind == protocol::ItemV2::Kind::Packet)
+      count += item->raw.size();
+  return count;
+}
+
+/// How many bytes are part of packets of either kind.
+struct Understood {
+  std::size_t v1 = 0;
+  std::size_t v2 = 0;
+};
+
+Understood understood(const Input& input) {
+  if (input.recording.empty())
+    return {std::max(understood(input.bytes, Direction::ToBall),
+                     understood(input.bytes, Direction::FromBall)),
+            understood_as_v2(input.bytes)};
+  Understood count;
+  for (const auto direction : {Direction::ToBall, Direction::FromBall}) {
+    Bytes bytes;
+    for (const auto& piece : input.recording)
+      if (piece.direction == direction)
+        bytes.insert(bytes.end(), piece.bytes.begin(), piece.bytes.end());
+    count.v1 += understood(bytes, direction);
+    count.v2 += understood_as_v2(bytes);
+  }
   return count;
 }
 
@@ -215,10 +255,17 @@ void decode(Context& context, const DecodeArguments& arguments) {
       input.bytes.insert(input.bytes.end(), bytes->begin(), bytes->end());
     }
   }
-  if (arguments.v2)
+  const auto count = understood(input);
+  const bool is_v2 = arguments.v2 || count.v2 > count.v1;
+  if (is_v2)
     print_v2(input, arguments.format == "json");
   else
     print_v1(input, arguments);
+  if (is_v2 && count.v2 == 0 && count.v1 > 0)
+    print_note(context, "these are packets v1; omit `--v2`");
+  else if (count.v1 + count.v2 == 0 && (!input.bytes.empty() || !input.recording.empty()))
+    print_note(context, "no whole packet here, neither v1 (FF …) nor v2 (8D … D8): check that no "
+                        "byte is missing");
 }
 
 } // namespace
@@ -227,12 +274,12 @@ void add_decode(const Command& orb, Context& context) {
   const auto command = orb.add_command("decode", "explain packets in words",
                                        "orb decode FF FF 00 01 52 01 AB\n"
                                        "orb decode FFFE08000748656C6C6F0AF2\n"
-                                       "orb decode session.txt\norb decode --v2 8D0A11061FBFD8");
+                                       "orb decode session.txt\norb decode 8D0A11061FBFD8");
   auto arguments = std::make_shared<DecodeArguments>();
   command.add_option(
       "FILE", arguments->words,
       "hex bytes, or a file of hex, raw bytes or a recording; stdin if - or omitted");
-  command.add_flag("--v2", arguments->v2, "packets of the newer robots");
+  command.add_flag("--v2", arguments->v2, "read them as packets v2, of the newer robots; without it whichever fits");
   add_format_option(command, arguments->format);
   command
       .add_option("--from", arguments->from,

@@ -27,6 +27,7 @@ constexpr auto project_options = std::to_array<std::string_view>({
     "target", "ram", "area", "executive", "firmware",                                     // the ball
     "deny", "warn", "allow", "max-errors",                                                // the rules' levels
     "pack", "fold-delays", "renumber",                                                    // layout
+    "stale", "collision-threshold",                                                       // driven robots
     "for", "lines-per-second", "seed", "speed", "timeout", "connect-timeout", "attempts", "jobs", "tries", // budgets
 });
 // clang-format on

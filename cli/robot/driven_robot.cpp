@@ -1,6 +1,10 @@
 #include "cli/robot/driven_robot.h"
 
+#include "base/duration.h"
+
 #include "run/tether/hold_robot.h"
+
+#include <algorithm>
 
 namespace orb::cli {
 namespace {
@@ -33,6 +37,10 @@ connect_robot(const Context& context, const PortOptions& given, const std::strin
   if (!kind)
     return tl::unexpected(kind.error());
   robot->tether.robot = *kind;
+  robot->tether.budgets.stale = *parse_duration(port.stale, 1s); // the options are checked
+  robot->tether.budgets.gone =
+      std::max(robot->tether.budgets.gone, 2 * robot->tether.budgets.stale);
+  robot->tether.budgets.collisions = {port.collision_threshold, port.collision_threshold};
   robot->tether.note = [&context](const std::string& message) { print_note(context, message); };
   if (!robot->link.is_sim)
     robot->tether.reopen = [&context, port,

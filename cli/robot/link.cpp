@@ -38,12 +38,13 @@ std::uint8_t draw_first_seq() {
 
 namespace {
 
+std::string is_time(const std::string& text) {
+  const auto time = parse_duration(text, 1s);
+  return time && *time > Duration{} ? std::string()
+                                    : "`" + text + "` is not a time such as 2s or 500ms";
+}
+
 void add_waits(const Command& command, PortOptions& options) {
-  const auto is_time = [](const std::string& text) {
-    const auto time = parse_duration(text, 1s);
-    return time && *time > Duration{} ? std::string()
-                                      : "`" + text + "` is not a time such as 2s or 500ms";
-  };
   command.add_option("--timeout", options.answer, "how long to wait for one answer")
       .type_name("TIME")
       .check(is_time)
@@ -90,6 +91,17 @@ void add_robot_options(const Command& command, PortOptions& options, std::string
                   "which robot it is; the virtual one drives like it, and the name of a real one "
                   "tells which")
       .check(one_of(names_of(spec::robots)));
+  command
+      .add_option("--stale", options.stale,
+                  "how long without sensor data until a robot that is driven is stopped")
+      .type_name("TIME")
+      .check(is_time)
+      .show_default();
+  command
+      .add_option("--collision-threshold", options.collision_threshold,
+                  "how hard a robot has to collide to report it; 1 is the softest")
+      .check(whole_number(1, UINT8_MAX))
+      .show_default();
   add_waits(command, options);
 }
 
@@ -195,6 +207,7 @@ namespace {
 
 void open_sim(Link& link, spec::Robot robot, const spec::Driving& driving) {
   vm::BallOptions ball;
+  ball.robot = robot;
   ball.driving = driving;
   ball.loader = compiler::load;
   link.first_seq = sim_first_seq;

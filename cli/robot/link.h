@@ -3,6 +3,7 @@
 #include "cli/context/context.h"
 #include "disk/disk.h"
 #include "protocol/recording.h"
+#include "run/tether/wire.h"
 #include "uploader/ble_error.h"
 #include "uploader/budgets.h"
 #include "uploader/endpoint.h"
@@ -34,6 +35,8 @@ struct PortOptions {
   std::string record;        ///< a file for the bytes of both directions; empty for none
   std::string answer = "2s"; ///< the wait for one answer
   std::string step = "10s";  ///< the wait for one step to a robot over Bluetooth LE
+  std::string stale = "500ms"; ///< without sensor data for so long a driven robot is stopped
+  int collision_threshold = run::CollisionLimits{}.threshold; ///< of a driven robot
 };
 
 /// Adds `--port`, which says where a robot is that serves as a program's body, `--robot`,

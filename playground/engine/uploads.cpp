@@ -71,11 +71,14 @@ ordered_json ble_json(const uploader::Budgets& budgets, spec::BleProtocol protoc
     greeting.push_back(place_json(row.characteristic));
     greeting.back()["bytes"] = bytes_json(as_bytes(row.bytes));
   }
+  auto open = ordered_json::array(); // names of robots that have no such characteristic
+  for (const auto& row : spec::ble_names)
+    if (spec::is_open(row.model))
+      open.push_back(row.prefix);
   return {{"services", services},
           {"names", names},
           {"greeting", greeting},
-          {"wordless",
-           {spec::info(spec::info(spec::Robot::Rvr).ble).prefix}}, // it has no such characteristic
+          {"wordless", open},
           {"commands", place_json(is_v1 ? spec::BleCharacteristic::Commands
                                         : spec::BleCharacteristic::PacketsV2)},
           {"answers", place_json(is_v1 ? spec::BleCharacteristic::Answers

@@ -71,7 +71,7 @@ bool fits(const spec::RobotInfo& robot, std::uint8_t did, const Bytes& commands)
                      [&](const spec::V2CommandInfo& row) {
                        const bool listed =
                            std::find(commands.begin(), commands.end(), row.cid()) != commands.end();
-                       return row.did() != did || row.robots == spec::V2Robots::All ||
+                       return row.did() != did || row.robots == spec::v2_set::All ||
                               listed == spec::knows(robot, row);
                      });
 }

@@ -86,6 +86,7 @@ tl::expected<TetheredEnding, Failure> run_tethered(std::span<const Input> inputs
     tether.recording->first = *first;
   }
   auto options = given;
+  options.model = tether.robot;
   options.robot = &witness;
   options.robot_sample = *first;
   const auto live = Live::start(inputs, options, tap, journey);
@@ -171,6 +172,7 @@ tl::expected<TetheredEnding, Failure> run_replayed(std::span<const Input> inputs
   });
   Tap tap(listener, {});
   auto options = given;
+  options.model = recording.robot;
   options.robot = &witness;
   options.robot_sample = recording.first;
   const auto live = Live::start(inputs, options, tap, journey);

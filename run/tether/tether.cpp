@@ -29,7 +29,7 @@ constexpr Duration longest_wait = 200ms;
 
 Tether::Tether(protocol::Transport& transport, spec::Robot robot, const TetherBudgets& budgets,
                const Streamed& streamed)
-    : transport_(&transport), robot_(robot), budgets_(budgets), wire_(make_wire(robot)),
+    : transport_(&transport), robot_(robot), budgets_(budgets), wire_(make_wire(robot, budgets.collisions)),
       streamed_(streamed), looked_at_(transport.now()) {}
 
 Tether::~Tether() {
@@ -60,7 +60,7 @@ tl::expected<void, LinkError> Tether::send(const Request& request, Kind kind) {
 }
 
 /// Sends until it is answered. Samples that come are noted, and nothing else.
-tl::expected<Bytes, Failure> Tether::ask(const Request& request, Duration budget) {
+tl::expected<std::optional<Bytes>, Failure> Tether::ask(const Request& request, Duration budget) {
   const auto until = now() + budget;
   std::optional<std::uint8_t> refusal;
   while (now() < until) {
@@ -86,7 +86,7 @@ tl::expected<Bytes, Failure> Tether::ask(const Request& request, Duration budget
     if (!answer)
       continue;
     if (answer->error == 0)
-      return answer->data;
+      return std::optional(std::move(answer->data));
     refusal = answer->error;
     if (!wire_->means_later(answer->error))
       break;
@@ -97,7 +97,7 @@ tl::expected<Bytes, Failure> Tether::ask(const Request& request, Duration budget
         wire_->feed(*bytes);
   }
   if (refusal && request.need == Request::Need::Try)
-    return Bytes{};
+    return std::nullopt;
   if (refusal)
     return tl::unexpected(this->refusal(request, *refusal));
   return tl::unexpected(
@@ -120,19 +120,22 @@ tl::expected<vm::Sample, Failure> Tether::begin(Aim aim) {
     const auto answer = ask(first[i], budgets_.setup);
     if (!answer)
       return fail(answer.error());
-    wire_->hear_setup(i, *answer);
+    wire_->hear_setup(first[i], *answer);
+    for (const auto until = now() + wire_->rests_after(first[i]); now() < until;)
+      if (const auto bytes = transport_->read(until); !bytes)
+        return fail(lost(bytes.error()));
+      else
+        wire_->feed(*bytes);
   }
   if (auto done = ask_all(wire_->setup_more()); !done)
     return fail(done.error());
-  if (auto request = wire_->ask_battery()) {
-    request->need = Request::Need::Try;
-    const auto answer = ask(*request, budgets_.setup);
-    if (!answer)
-      return fail(answer.error());
-    battery_ = wire_->read_battery(*answer);
-    if (battery_)
-      battery_at_ = now() + budgets_.battery;
-  }
+  auto battery = wire_->ask_battery();
+  battery.need = Request::Need::Try;
+  const auto answer = ask(battery, budgets_.setup);
+  if (!answer)
+    return fail(answer.error());
+  battery_ = wire_->read_battery(answer->value_or(Bytes{}));
+  battery_at_ = now() + budgets_.battery;
   auto sample = listen();
   return sample ? std::move(sample) : fail(sample.error());
 }
@@ -464,6 +467,8 @@ tl::expected<void, Failure> Tether::pump(Instant deadline,
       facing_deg_ = on_circle(sample->yaw_deg);
       stale_ = false;
     }
+    if (std::holds_alternative<Said::WillSleep>(said->what))
+      battery_at_ = now(); // whatever is asked keeps it awake
     const auto* answer = std::get_if<Said::Answer>(&said->what);
     if (answer == nullptr)
       hear(*said);

@@ -24,8 +24,9 @@ inline constexpr std::string_view samples_gone =
     "no sensor data: the robot was told to stop, and the program is waiting";
 inline constexpr std::string_view samples_back = "sensor data is back: the program continues";
 
-/// Waits and repetitions of a run on a robot that is elsewhere.
+/// Waits, repetitions and limits of a run on a robot that is elsewhere.
 struct TetherBudgets {
+  CollisionLimits collisions;
   Duration answer = 400ms;    ///< for one answer; then the request is sent again
   Duration setup = 6s;        ///< for an answer to each request before the run
   Duration repeat = 800ms;    ///< a drive command is repeated so often while the robot drives
@@ -118,7 +119,8 @@ private:
   std::optional<Request>& waiting(Kind kind) { return waiting_[static_cast<std::size_t>(kind)]; }
   bool waits(Kind kind) const { return waiting_[static_cast<std::size_t>(kind)].has_value(); }
   bool may_leave(Kind kind) const;
-  tl::expected<Bytes, Failure> ask(const Request& request, Duration budget);
+  /// The answer; nothing where it refuses what a run can do without.
+  tl::expected<std::optional<Bytes>, Failure> ask(const Request& request, Duration budget);
   tl::expected<void, Failure> ask_all(const std::vector<Request>& requests);
   tl::expected<vm::Sample, Failure> listen();
   tl::expected<void, protocol::LinkError> send(const Request& request, Kind kind);
@@ -169,7 +171,7 @@ private:
   std::optional<vm::stimulus::Battery> battery_;
   std::optional<Failure> refused_;
 
-  std::optional<Instant> battery_at_; ///< when it is asked for next; nothing where it does not tell
+  std::optional<Instant> battery_at_; ///< when it is asked for next, which keeps the robot awake
   Instant next_send_{};
   Instant sample_at_{};
   int facing_deg_ = 0; ///< in the newest sample

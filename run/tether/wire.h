@@ -24,7 +24,8 @@ struct Said {
     std::uint8_t error = 0; ///< 0: done
     Bytes data;
   };
-  std::variant<Answer, vm::Sample, vm::event::Collision, vm::stimulus::Battery> what;
+  struct WillSleep {}; ///< unless something is asked of it
+  std::variant<Answer, vm::Sample, vm::event::Collision, vm::stimulus::Battery, WillSleep> what;
 };
 
 /// A request, but for its sequence number.
@@ -40,6 +41,20 @@ struct Request {
 /// Whether a run begins with the robot's heading and place set to 0.
 enum class Aim : std::uint8_t { Zero, Keep };
 
+/// What counts as a collision: per axis a threshold and what full speed adds to it.
+struct CollisionLimits {
+  int threshold = 32; ///< 1..255. Source: LIB, the least of what clients use; 100 misses a wall at 40
+  int speed = 32;     ///< 0..255
+
+  /// The operands of `configure-collision-detection`, of v1 and v2 alike.
+  Bytes operands() const;
+  static Bytes off() { return Bytes(6, 0); }
+};
+
+/// What a robot says of a collision, in packets v1 and v2: 16 bytes, or 18 with a third power;
+/// nothing for another size.
+std::optional<vm::event::Collision> read_collision(ByteView data);
+
 /// The packets of a robot: what is wanted of it as requests, what it sends as values. It holds no
 /// time and sends nothing.
 class RobotWire {
@@ -52,10 +67,9 @@ public:
   virtual void feed(ByteView bytes) = 0;
   virtual std::optional<Said> next() = 0;
 
-  /// What readies it for a run, in order. Answers go to hear_setup(), with the number of the
-  /// request.
+  /// What readies it for a run, in order. Answers go to hear_setup(); nothing for a refusal.
   virtual std::vector<Request> setup(Aim aim) const = 0;
-  virtual void hear_setup(std::size_t, const Bytes&) {}
+  virtual void hear_setup(const Request& request, const std::optional<Bytes>& answer) = 0;
   /// What is sent once setup() has been answered and depends on the answers.
   virtual std::vector<Request> setup_more() const { return {}; }
   /// What lets it say what it feels, and what silences it.
@@ -70,9 +84,11 @@ public:
   virtual std::vector<Request> show(vm::Color color) const = 0;
   virtual std::optional<Request> show_back(int level) const = 0;
 
-  /// What asks for the voltage of its battery; nothing where it does not tell. The answer is read
-  /// by read_battery().
-  virtual std::optional<Request> ask_battery() const = 0;
+  /// So long after this request of setup() it drops what moves it.
+  virtual Duration rests_after(const Request&) const { return {}; }
+  /// What asks for the voltage of its battery, or, where it does not tell, keeps it awake. The
+  /// answer is read by read_battery().
+  virtual Request ask_battery() const = 0;
   virtual std::optional<vm::stimulus::Battery> read_battery(const Bytes& answer) const = 0;
 
   /// Whether it switches stabilization off: then the robot ignores a roll until that is on again.
@@ -86,6 +102,6 @@ public:
   virtual bool means_later(std::uint8_t error) const = 0;
 };
 
-std::unique_ptr<RobotWire> make_wire(spec::Robot robot);
+std::unique_ptr<RobotWire> make_wire(spec::Robot robot, CollisionLimits limits = {});
 
 } // namespace orb::run

@@ -82,7 +82,7 @@ std::uint64_t mask_of(const Streamed& streamed) {
 }
 
 /// A frame of the stream; nothing where it is another's.
-std::optional<vm::Sample> read_frame(ByteView data, const Streamed& streamed) {
+std::optional<vm::Sample> read_frame(ByteView data, const Streamed& streamed, spec::Axes axes) {
   constexpr std::size_t value = 2; // bytes
   vm::Sample sample;
   std::size_t at = 0;
@@ -96,6 +96,9 @@ std::optional<vm::Sample> read_frame(ByteView data, const Streamed& streamed) {
     *place = spec::scale_of(row.unit).back(steps);
     at += value;
   }
+  sample.place_cm = from_axes(axes, sample.place_cm);
+  const auto velocity = vm::from_axes(axes, {sample.velocity_cm_s.x, sample.velocity_cm_s.y});
+  sample.velocity_cm_s = {velocity.x, velocity.y};
   if (sample.yaw_deg < 0)
     sample.yaw_deg += spec::ball::full_circle;
   return at == data.size() ? std::optional(sample) : std::nullopt;
@@ -111,6 +114,8 @@ bool is(const Request& request, ApiCommand command) {
 
 class WireV1 final : public RobotWire {
 public:
+  WireV1(spec::Robot robot, CollisionLimits limits) : robot_(robot), limits_(limits) {}
+
   Bytes encode(const Request& request, std::uint8_t seq) const override {
     return protocol::encode(
         protocol::Command{request.did, request.cid, seq, spec::sop2_default, request.data});
@@ -122,12 +127,13 @@ public:
   std::optional<Said> next() override;
 
   std::vector<Request> setup(Aim aim) const override;
-  void hear_setup(std::size_t which, const Bytes& answer) override {
-    if (which == 0 && answer.size() == sizeof(std::uint32_t))
-      flags_ = read_u32(answer, 0);
+  void hear_setup(const Request& request, const std::optional<Bytes>& answer) override {
+    if (is(request, ApiCommand::GetPermanentOptionFlags) && answer &&
+        answer->size() == sizeof(std::uint32_t))
+      flags_ = read_u32(*answer, 0);
   }
   std::vector<Request> setup_more() const override {
-    return {timeout(), flags(flags_.value_or(0) | motion_timeout_flag), collisions(1)};
+    return {timeout(), flags(flags_.value_or(0) | motion_timeout_flag), collisions(limits_.operands())};
   }
   std::vector<Request> stream(const Streamed& streamed) override;
   std::vector<Request> silence() const override;
@@ -141,7 +147,7 @@ public:
   std::optional<Request> show_back(int level) const override {
     return request(ApiCommand::SetBackLed, {static_cast<std::uint8_t>(level)});
   }
-  std::optional<Request> ask_battery() const override {
+  Request ask_battery() const override {
     return request(ApiCommand::GetPowerState, {});
   }
   std::optional<vm::stimulus::Battery> read_battery(const Bytes& answer) const override {
@@ -159,7 +165,7 @@ public:
     return fmt::format("{} ({:02X}h {:02X}h)", row == nullptr ? "a command" : row->name,
                        request.did, request.cid);
   }
-  Duration interval() const override { return spec::info(spec::Robot::Sphero).interval; }
+  Duration interval() const override { return spec::info(robot_).interval; }
   std::string describe(std::uint8_t error) const override { return uploader::describe_code(error); }
   bool means_later(std::uint8_t error) const override {
     return spec::retry_of(error) == spec::Retry::SameAgain || uploader::is_transient(error);
@@ -177,12 +183,8 @@ private:
     append_u32(data, flags);
     return request(ApiCommand::SetPermanentOptionFlags, std::move(data));
   }
-  /// Method 0 turns their detection off. Thresholds and dead time are those that clients use (LIB).
-  static Request collisions(std::uint8_t method) {
-    constexpr std::uint8_t threshold = 100;
-    constexpr std::uint8_t dead_time = 20; // of 10 ms
-    auto configured = request(ApiCommand::ConfigureCollisionDetection,
-                              {method, threshold, threshold, threshold, threshold, dead_time});
+  static Request collisions(Bytes operands) {
+    auto configured = request(ApiCommand::ConfigureCollisionDetection, std::move(operands));
     configured.need = Request::Need::Try;
     return configured;
   }
@@ -192,6 +194,8 @@ private:
     return request(ApiCommand::SetMotionTimeout, std::move(data));
   }
 
+  spec::Robot robot_;
+  CollisionLimits limits_;
   protocol::Decoder decoder_{protocol::Direction::FromBall};
   std::optional<std::uint32_t> flags_; ///< as the robot had them
   Streamed streamed_;                  ///< what it streams
@@ -204,20 +208,11 @@ std::optional<Said> WireV1::next() {
     if (item->kind != protocol::Item::Kind::Async)
       continue;
     if (item->code == static_cast<std::uint8_t>(spec::AsyncId::SensorData))
-      if (const auto sample = read_frame(item->data, streamed_))
+      if (const auto sample = read_frame(item->data, streamed_, spec::axes(robot_)))
         return Said{*sample};
-    constexpr std::size_t collision_size = 16;
-    if (item->code == static_cast<std::uint8_t>(spec::AsyncId::Collision) &&
-        item->data.size() == collision_size) {
-      const auto word = [&](std::size_t i) {
-        return static_cast<std::int16_t>(read_u16(item->data, i));
-      };
-      constexpr std::size_t axis = 6;
-      constexpr std::size_t powers = 7;
-      constexpr std::size_t speed = 11;
-      return Said{vm::event::Collision{word(0), word(2), item->data[axis], word(powers),
-                                       word(powers + 2), item->data[speed]}};
-    }
+    if (item->code == static_cast<std::uint8_t>(spec::AsyncId::Collision))
+      if (const auto blow = read_collision(item->data))
+        return Said{*blow};
   }
   return std::nullopt;
 }
@@ -260,7 +255,7 @@ std::vector<Request> WireV1::teardown() const {
   return {request(ApiCommand::SetStabilization, {1}),
           request(ApiCommand::SetRgbLed, {0, 0, 0, 0}),
           request(ApiCommand::SetBackLed, {0}),
-          collisions(0),
+          collisions(CollisionLimits::off()),
           timeout(),
           flags(flags_.value_or(0))};
 }
@@ -286,8 +281,8 @@ std::optional<Request> WireV1::drive(const vm::Motion& motion) const {
 
 } // namespace
 
-std::unique_ptr<RobotWire> make_wire_v1() {
-  return std::make_unique<WireV1>();
+std::unique_ptr<RobotWire> make_wire_v1(spec::Robot robot, CollisionLimits limits) {
+  return std::make_unique<WireV1>(robot, limits);
 }
 
 } // namespace orb::run

@@ -72,8 +72,10 @@ void take(vm::Sample& sample, V2Sensor sensor, double value) {
   case V2Sensor::QuaternionY:
   case V2Sensor::QuaternionZ:
   case V2Sensor::QuaternionW:
+  case V2Sensor::AccelOne:
   case V2Sensor::Speed:
   case V2Sensor::CoreTime:
+  case V2Sensor::Head:
   case V2Sensor::Light: break; // not asked for
   }
 }
@@ -89,7 +91,9 @@ std::vector<V2Sensor> values_of(V2Service service) {
   case V2Service::Quaternion:
   case V2Service::Color:
   case V2Service::Speed:
-  case V2Service::Light: break;
+  case V2Service::CoreTime:
+  case V2Service::Light:
+  case V2Service::Encoders: break;
   }
   return {};
 }
@@ -117,7 +121,8 @@ bool is_sane(const vm::Sample& sample) {
 
 class WireV2 final : public RobotWire {
 public:
-  explicit WireV2(spec::Robot robot) : robot_(spec::info(robot)) {}
+  WireV2(spec::Robot robot, CollisionLimits limits)
+      : robot_(spec::info(robot)), limits_(limits) {}
 
   Bytes encode(const Request& request, std::uint8_t seq) const override;
   std::uint8_t next_seq(std::uint8_t seq) const override {
@@ -126,6 +131,11 @@ public:
   void feed(ByteView bytes) override { decoder_.feed(bytes); }
   std::optional<Said> next() override;
 
+  void hear_setup(const Request& request, const std::optional<Bytes>& answer) override {
+    senses_ = senses_ || (is(request, V2Command::CollisionDetection) && !answer &&
+                          knows(V2Command::CollisionSense));
+  }
+  std::vector<Request> setup_more() const override;
   std::vector<Request> setup(Aim aim) const override;
   std::vector<Request> stream(const Streamed& streamed) override;
   std::vector<Request> silence() const override;
@@ -134,24 +144,20 @@ public:
   std::optional<Request> drive(const vm::Motion& motion) const override;
   Request brake(int heading_deg) const override { return roll(heading_deg, 0, 0); }
   std::vector<Request> show(vm::Color color) const override;
-  std::optional<Request> show_back(int level) const override {
-    if (robot_.aiming == 0)
-      return std::nullopt;
-    return lamps(robot_.aiming, {static_cast<std::uint8_t>(level)});
+  std::optional<Request> show_back(int level) const override;
+  Duration rests_after(const Request& request) const override {
+    return is(request, V2Command::Wake) ? spec::wakes_in(robot_.robot) : Duration{};
   }
-  std::optional<Request> ask_battery() const override {
-    if (!knows(robot_, spec::info(V2Command::GetVoltage)))
-      return std::nullopt;
-    return request(V2Command::GetVoltage);
+  Request ask_battery() const override {
+    return knows(V2Command::GetVoltage) ? request(V2Command::GetVoltage)
+           : knows(V2Command::GetVolts) ? request(V2Command::GetVolts, {0})
+                                        : request(V2Command::Ping);
   }
-  std::optional<vm::stimulus::Battery> read_battery(const Bytes& answer) const override {
-    if (answer.size() != 2)
-      return std::nullopt;
-    return vm::stimulus::Battery{read_u16(answer, 0) / 100.0};
-  }
+  std::optional<vm::stimulus::Battery> read_battery(const Bytes& answer) const override;
   bool loosens(const Request& request) const override {
     return is(request, V2Command::RawMotors) ||
-           (is(request, V2Command::SetStabilization) && request.data.front() == 0);
+           ((is(request, V2Command::SetStabilization) || is(request, V2Command::Stabilize)) &&
+            request.data.front() == 0);
   }
   std::string name_of(const Request& request) const override {
     const auto* row = spec::find_v2_command(request.did, request.cid);
@@ -174,12 +180,16 @@ private:
     data.push_back(flags);
     return request(V2Command::DriveWithHeading, std::move(data));
   }
-  std::optional<Request> collisions(std::uint8_t method) const;
+  bool knows(V2Command command) const { return spec::knows(robot_, spec::info(command)); }
+  std::optional<Request> stabilization(std::uint8_t mode) const;
+  std::optional<Request> collisions(Bytes operands) const;
   Request lamps(std::uint32_t mask, Bytes values) const;
   std::optional<vm::Sample> sample(const Bytes& data) const;
   std::optional<vm::Sample> services(const Bytes& data) const;
 
   const spec::RobotInfo& robot_;
+  CollisionLimits limits_;
+  bool senses_ = false; ///< collisions by the way of a BOLT+
   protocol::DecoderV2 decoder_;
   Streamed streamed_; ///< what it streams
 };
@@ -258,46 +268,73 @@ std::optional<Said> WireV2::next() {
       felt = services(packet.data);
     if (felt)
       return Said{*felt};
-    constexpr std::size_t collision_size = 18;
-    if (row->message == spec::V2Message::Collision && packet.data.size() == collision_size) {
-      const auto word = [&](std::size_t at) {
-        return static_cast<std::int16_t>(read_u16(packet.data, at));
-      };
-      constexpr std::size_t axis = 6;
-      constexpr std::size_t powers = 7;
-      constexpr std::size_t speed = 13;
-      return Said{vm::event::Collision{word(0), word(2), packet.data[axis], word(powers),
-                                       word(powers + 2), packet.data[speed]}};
-    }
+    if (row->message == spec::V2Message::WillSleep)
+      return Said{Said::WillSleep{}};
+    if (row->message == spec::V2Message::CollisionSensed)
+      return Said{vm::event::Collision{}}; // it tells no more than that
+    if (row->message == spec::V2Message::Collision)
+      if (const auto blow = read_collision(packet.data))
+        return Said{*blow};
   }
   return std::nullopt;
 }
 
+std::optional<vm::stimulus::Battery> WireV2::read_battery(const Bytes& answer) const {
+  double volts = 0;
+  if (knows(V2Command::GetVoltage) && answer.size() == sizeof(std::uint16_t))
+    volts = read_u16(answer, 0) / 100.0;
+  else if (knows(V2Command::GetVolts) && answer.size() == sizeof(float))
+    volts = protocol::read_f32(answer, 0);
+  constexpr double most = 20; // no battery of these has more
+  return volts > 0 && volts < most ? std::optional(vm::stimulus::Battery{volts}) : std::nullopt;
+}
+
 std::vector<Request> WireV2::setup(Aim aim) const {
   std::vector<Request> all{request(V2Command::Wake)};
-  if (robot_.sensors != spec::RobotSensors::Services)
-    all.push_back(request(V2Command::SetStabilization, {1}));
-  if (robot_.robot == spec::Robot::R2d2 || robot_.robot == spec::Robot::R2q5)
+  if (const auto on = stabilization(1))
+    all.push_back(*on);
+  if (knows(V2Command::LegAction))
     all.push_back(request(V2Command::LegAction, {1})); // it drives on three legs
   if (aim == Aim::Zero) {
     all.push_back(request(V2Command::ResetYaw));
     all.push_back(request(V2Command::ResetLocator));
   }
-  if (const auto detects = collisions(1))
+  if (const auto detects = collisions(limits_.operands()))
     all.push_back(*detects);
   return all;
 }
 
-/// Method 0 turns their detection off. Thresholds and dead time are those that clients use (LIB).
-std::optional<Request> WireV2::collisions(std::uint8_t method) const {
-  if (!knows(robot_, spec::info(V2Command::CollisionDetection)))
+/// Nothing for a robot that always keeps it.
+std::optional<Request> WireV2::stabilization(std::uint8_t mode) const {
+  if (knows(V2Command::Stabilize)) {
+    auto one = request(V2Command::Stabilize, {mode});
+    one.need = Request::Need::Try; // one source
+    return one;
+  }
+  if (knows(V2Command::SetStabilization))
+    return request(V2Command::SetStabilization, {mode});
+  return std::nullopt;
+}
+
+std::optional<Request> WireV2::collisions(Bytes operands) const {
+  if (!knows(V2Command::CollisionDetection))
     return std::nullopt;
-  constexpr std::uint8_t threshold = 100;
-  constexpr std::uint8_t dead_time = 20; // of 10 ms
-  auto configured = request(V2Command::CollisionDetection,
-                            {method, threshold, threshold, threshold, threshold, dead_time});
-  configured.need = Request::Need::Try;
-  return configured;
+  auto one = request(V2Command::CollisionDetection, std::move(operands));
+  one.need = Request::Need::Try;
+  return one;
+}
+
+/// Sources differ on how a BOLT+ detects collisions: what it refuses it is not asked for again.
+std::vector<Request> WireV2::setup_more() const {
+  if (!senses_)
+    return {};
+  constexpr std::uint8_t medium = 3;
+  constexpr std::uint8_t dead_time_ms = 200;
+  std::vector<Request> all{request(V2Command::CollisionSense, {0, medium, 0, dead_time_ms}),
+                           request(V2Command::CollisionSenseNotify, {1})};
+  for (auto& one : all)
+    one.need = Request::Need::Try;
+  return all;
 }
 
 std::vector<Request> WireV2::stream(const Streamed& streamed) {
@@ -333,9 +370,11 @@ std::vector<Request> WireV2::silence() const {
 
 std::vector<Request> WireV2::teardown() const {
   std::vector<Request> all;
-  if (robot_.sensors != spec::RobotSensors::Services)
-    all.push_back(request(V2Command::SetStabilization, {1}));
-  if (const auto detects = collisions(0))
+  if (const auto on = stabilization(1))
+    all.push_back(*on);
+  if (senses_)
+    all.push_back(request(V2Command::CollisionSenseNotify, {0}));
+  else if (const auto detects = collisions(CollisionLimits::off()))
     all.push_back(*detects);
   for (auto& one : show({}))
     all.push_back(std::move(one));
@@ -356,14 +395,27 @@ Request WireV2::lamps(std::uint32_t mask, Bytes values) const {
   return request(robot_.lamps, std::move(data));
 }
 
+/// Lamps of three colours, then white ones, which show the white of the colour.
 std::vector<Request> WireV2::show(vm::Color color) const {
   Bytes values;
-  for (int lamp = 0; lamp < std::popcount(robot_.body) / 3; ++lamp)
+  const auto lamp_count = std::popcount(robot_.body);
+  for (int lamp = 0; lamp < lamp_count / 3; ++lamp)
     values.insert(values.end(), {color.red, color.green, color.blue});
+  values.resize(static_cast<std::size_t>(lamp_count),
+                std::min({color.red, color.green, color.blue}));
   std::vector<Request> all{lamps(robot_.body, std::move(values))};
-  if (knows(robot_, spec::info(V2Command::MatrixColor)))
+  if (knows(V2Command::MatrixPixel))
     all.push_back(request(V2Command::MatrixColor, {color.red, color.green, color.blue}));
   return all;
+}
+
+/// The blue one of a lamp of three colours.
+std::optional<Request> WireV2::show_back(int level) const {
+  if (robot_.aiming == 0)
+    return std::nullopt;
+  Bytes values(static_cast<std::size_t>(std::popcount(robot_.aiming)), 0);
+  values.back() = static_cast<std::uint8_t>(level);
+  return lamps(robot_.aiming, std::move(values));
 }
 
 std::optional<Request> WireV2::drive(const vm::Motion& motion) const {
@@ -380,21 +432,20 @@ std::optional<Request> WireV2::drive(const vm::Motion& motion) const {
                    {mode(motors->left), static_cast<std::uint8_t>(motors->left.power),
                     mode(motors->right), static_cast<std::uint8_t>(motors->right.power)});
   }
-  if (const auto* mode = std::get_if<vm::Stabilization>(&motion);
-      mode != nullptr && robot_.sensors != spec::RobotSensors::Services)
-    return request(V2Command::SetStabilization,
-                   {std::uint8_t(*mode == vm::Stabilization::Off ? 0 : 1)});
+  if (const auto* mode = std::get_if<vm::Stabilization>(&motion))
+    return stabilization(*mode == vm::Stabilization::Off ? 0 : 1);
   return std::nullopt; // it has no rate of turns
 }
 
 } // namespace
 
-std::unique_ptr<RobotWire> make_wire_v2(spec::Robot robot) {
-  return std::make_unique<WireV2>(robot);
+std::unique_ptr<RobotWire> make_wire_v2(spec::Robot robot, CollisionLimits limits) {
+  return std::make_unique<WireV2>(robot, limits);
 }
 
-std::unique_ptr<RobotWire> make_wire(spec::Robot robot) {
-  return spec::info(robot).packets == spec::Packets::V2 ? make_wire_v2(robot) : make_wire_v1();
+std::unique_ptr<RobotWire> make_wire(spec::Robot robot, CollisionLimits limits) {
+  return spec::info(robot).packets == spec::Packets::V2 ? make_wire_v2(robot, limits)
+                                                        : make_wire_v1(robot, limits);
 }
 
 } // namespace orb::run

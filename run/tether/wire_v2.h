@@ -7,6 +7,6 @@
 namespace orb::run {
 
 /// Packets v2, as that robot takes them.
-std::unique_ptr<RobotWire> make_wire_v2(spec::Robot robot);
+std::unique_ptr<RobotWire> make_wire_v2(spec::Robot robot, CollisionLimits limits);
 
 } // namespace orb::run

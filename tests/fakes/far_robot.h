@@ -23,6 +23,7 @@ public:
     vm::BallOptions options;
     options.seed = plan.seed;
     options.loader = compiler::load;
+    options.robot = which;
     options.driving = spec::driving(which);
     options.observer = observer;
     ball = std::make_unique<vm::Ball>(options);

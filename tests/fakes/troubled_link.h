@@ -232,4 +232,55 @@ private:
   Bytes answers_;
 };
 
+/// Between what the robot says comes nonsense in whole packets: samples too short and too long, values
+/// without sense, answers to nothing, error codes that no table has.
+class BabblingLink final : public PassingLink {
+public:
+  BabblingLink(protocol::Transport& inner, std::uint64_t seed, const spec::RobotInfo& robot)
+      : PassingLink(inner), state_(seed), robot_(robot) {}
+  tl::expected<Bytes, protocol::LinkError> read(Instant deadline) override {
+    auto bytes = inner_.read(deadline);
+    if (bytes && draw(3) == 0) {
+      const auto more = babble();
+      bytes->insert(bytes->end(), more.begin(), more.end());
+    }
+    return bytes;
+  }
+
+private:
+  std::uint32_t draw(std::uint32_t below) {
+    state_ = state_ * 6364136223846793005U + 1442695040888963407U;
+    return static_cast<std::uint32_t>(state_ >> 33U) % below;
+  }
+  Bytes babble() {
+    Bytes data(draw(70));
+    for (auto& byte : data)
+      byte = static_cast<std::uint8_t>(draw(256));
+    if (robot_.packets == spec::Packets::V1) {
+      // A frame of the right length is a sample, whatever is in it.
+      data.resize(data.size() | 1U);
+      return encode(protocol::Async{static_cast<std::uint8_t>(draw(12)), data});
+    }
+    protocol::PacketV2 packet;
+    const auto& row = spec::v2_messages[draw(static_cast<std::uint32_t>(spec::v2_messages.size()))];
+    packet.did = static_cast<std::uint8_t>(static_cast<int>(row.message) >> 8);
+    packet.cid = static_cast<std::uint8_t>(row.message);
+    packet.seq = spec::v2_message_seq;
+    if (row.message == spec::V2Message::ServiceSample)
+      data.resize(data.size() % 4 == 1 ? data.size() + 1 : data.size()); // else it is a sample
+    else if (row.message == spec::V2Message::Sample && data.size() % 4 == 0)
+      data.assign(data.size(), 0xFF); // not numbers
+    if (draw(4) == 0) {
+      packet.flags = static_cast<std::uint8_t>(spec::V2Flag::Response);
+      packet.seq = static_cast<std::uint8_t>(200 + draw(50));
+      packet.error = static_cast<std::uint8_t>(draw(256));
+    }
+    packet.data = std::move(data);
+    return encode(packet);
+  }
+
+  std::uint64_t state_;
+  const spec::RobotInfo& robot_;
+};
+
 } // namespace orb::test

@@ -1,18 +1,19 @@
 // The v2 decoder: every byte comes out exactly once, and a packet encodes to what it was read from.
 
-#include "protocol/packet_v2.h"
+#include "protocol/describe_v2.h"
 
 #include <cstdlib>
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace orb;
   protocol::DecoderV2 decoder;
+  protocol::DescriberV2 describer;
   const ByteView bytes(data, size);
   std::size_t seen = 0;
   const auto drain = [&] {
     while (const auto item = decoder.next()) {
       seen += item->raw.size();
-      if (describe(*item).empty())
+      if (describer.describe(*item).empty())
         std::abort();
       if (item->kind == protocol::ItemV2::Kind::Packet && encode(item->packet) != item->raw)
         std::abort();

@@ -118,10 +118,11 @@ HANDLE(SetAccelerometerRange) {
 }
 
 HANDLE(ReadLocator) {
-  const auto pose = host_->body().pose();
-  const auto velocity = host_->body().velocity_cm_s();
+  const auto& body = host_->body();
+  const auto place = body.told_locator_cm();
+  const auto velocity = body.told_velocity_cm_s();
   return call.answer(
-      {s16(pose.x_cm), s16(pose.y_cm), s16(velocity.x), s16(velocity.y), s16(pose.speed_cm_s)});
+      {s16(place.x), s16(place.y), s16(velocity.x), s16(velocity.y), s16(body.pose().speed_cm_s)});
 }
 
 HANDLE(SetRgbLed) {

@@ -48,11 +48,11 @@ double sample(spec::StreamSource source, const Body& body, double accelerometer_
   case Q1: return body.attitude().x;
   case Q2: return body.attitude().y;
   case Q3: return body.attitude().z;
-  case OdometerX: return body.pose().x_cm;
-  case OdometerY: return body.pose().y_cm;
+  case OdometerX: return body.told_locator_cm().x;
+  case OdometerY: return body.told_locator_cm().y;
   case AccelOne: return body.acceleration_total_g();
-  case VelocityX: return body.velocity_cm_s().x;
-  case VelocityY: return body.velocity_cm_s().y;
+  case VelocityX: return body.told_velocity_cm_s().x;
+  case VelocityY: return body.told_velocity_cm_s().y;
   }
   return 0;
 }

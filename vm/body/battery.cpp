@@ -29,8 +29,8 @@ void Battery::set_charger(Switch charger, Instant now) {
 double Battery::volts(Instant now) const {
   const double elapsed = seconds(now - at_);
   if (charging())
-    return std::max(volts_, std::min(charged_battery, volts_ + charge_rate / hour_s * elapsed));
-  return std::max(std::min(volts_, empty_battery), volts_ - idle_drain / hour_s * elapsed);
+    return std::max(volts_, std::min(range_.charged, volts_ + charge_rate / hour_s * elapsed));
+  return std::max(std::min(volts_, range_.empty), volts_ - idle_drain / hour_s * elapsed);
 }
 
 Instant Battery::reaches(double volts_wanted, Instant now) const {

@@ -9,6 +9,7 @@ namespace orb::vm {
 /// A voltage at an instant and its slope since; motion takes more.
 class Battery {
 public:
+  explicit Battery(const spec::Battery& range) : range_(range) {}
   /// What a step of the control system at `speed_cm_s` takes.
   void drain(double speed_cm_s);
   void set(double volts, Instant now);
@@ -24,7 +25,8 @@ public:
 private:
   Switch charger_ = Switch::Off;
   Instant at_{};
-  double volts_ = spec::ball::full_battery;
+  spec::Battery range_;
+  double volts_ = range_.full;
 };
 
 } // namespace orb::vm

@@ -19,8 +19,10 @@ double on_scale(double speed_cm_s) {
 
 } // namespace
 
-Body::Body(std::uint64_t seed, const spec::Driving& numbers, const Placement& start)
-    : drive_(numbers), sensors_(seed), world_(start.place) {
+Body::Body(std::uint64_t seed, const spec::Driving& numbers, const Placement& start,
+           spec::Robot robot)
+    : drive_(numbers), sensors_(seed), battery_(spec::battery(robot)), axes_(spec::axes(robot)),
+      world_(start.place) {
   drive_.start_facing(start.facing_deg);
 }
 

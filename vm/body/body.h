@@ -2,6 +2,7 @@
 
 #include "base/time.h"
 #include "spec/ball.h"
+#include "spec/robots.h"
 #include "vm/body/ask.h"
 #include "vm/body/battery.h"
 #include "vm/body/drivetrain.h"
@@ -36,7 +37,9 @@ public:
   static constexpr Duration step = Duration{std::chrono::seconds{1}} / spec::ball::control_rate;
 
   /// `numbers`: how this robot drives; `start`: where it wakes up in its world.
-  explicit Body(std::uint64_t seed, const spec::Driving& numbers = {}, const Placement& start = {});
+  /// `robot`: whose battery it has, and whose axes it tells its place in.
+  explicit Body(std::uint64_t seed, const spec::Driving& numbers = {}, const Placement& start = {},
+                spec::Robot robot = spec::Robot::Sphero);
 
   /// `observer` sees every step; null: nobody. It must outlive the body.
   void observe(StepObserver* observer) { observer_ = observer; }
@@ -125,6 +128,12 @@ public:
   Pose pose() const;
   /// The place of pose().
   Point locator_cm() const { return locator_; }
+  /// The same, and the velocity, as the robot tells clients.
+  Point told_locator_cm() const { return in_axes(axes_, locator_); }
+  Point told_velocity_cm_s() const {
+    const auto velocity = velocity_cm_s();
+    return in_axes(axes_, {velocity.x, velocity.y});
+  }
   /// The same in its world, in which it woke up at its placement (0,0 facing +Y where it has none),
   /// whatever the program calls its place and its heading since.
   Pose world_pose() const;
@@ -179,6 +188,7 @@ private:
   Walls walls_;
   MotionSensors sensors_;
   Battery battery_;
+  spec::Axes axes_;
 
   double tare_deg_ = 0; ///< locator direction = yaw + tare
   Switch tare_correction_ = Switch::On;

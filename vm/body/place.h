@@ -1,5 +1,7 @@
 #pragma once
 
+#include "spec/ball.h"
+
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -35,6 +37,14 @@ struct Point {
 
   friend constexpr bool operator==(Point, Point) = default;
 };
+
+/// A place or a velocity, x to the right and y ahead, in a robot's own axes; and back.
+constexpr Point in_axes(spec::Axes axes, Point p) {
+  return axes == spec::Axes::AheadLeft ? Point{p.y, -p.x} : p;
+}
+constexpr Point from_axes(spec::Axes axes, Point p) {
+  return axes == spec::Axes::AheadLeft ? Point{-p.y, p.x} : p;
+}
 
 /// Where a ball starts in its world, and which way it faces there: degrees clockwise from +Y.
 struct Placement {

@@ -6,6 +6,7 @@
 #include "cli/robot/newer_robot.h"
 #include "cli/terminal/interrupt.h"
 #include "protocol/describe.h"
+#include "protocol/describe_v2.h"
 #include "protocol/payload.h"
 #include "protocol/payload_v2.h"
 
@@ -55,7 +56,7 @@ void execute_v2(Context& context, const ExecOptions& options, const spec::RobotI
                      const auto bytes = encode(*answer);
                      protocol::DecoderV2 decoder;
                      decoder.feed(bytes);
-                     print_out(describe(*decoder.next()) + "\n");
+                     print_out(protocol::DescriberV2{}.describe(*decoder.next()) + "\n");
                      if (answer->error != 0)
                        context.exit = ExitCode::Refused;
                      return {};

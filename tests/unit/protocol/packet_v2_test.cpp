@@ -1,4 +1,4 @@
-#include "protocol/packet_v2.h"
+#include "protocol/describe_v2.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -33,7 +33,7 @@ TEST(PacketV2, ReadsTargetSourceAndErrorWhereTheFlagsSaySo) {
                                             .data = {1, 2}}));
   ASSERT_EQ(items.size(), 1u);
   ASSERT_EQ(items[0].kind, ItemV2::Kind::Packet);
-  EXPECT_EQ(describe(items[0]),
+  EXPECT_EQ(DescriberV2{}.describe(items[0]),
             "response get-mac-address: flags 31 (response, target, source), tid 12 (port 1, node "
             "2), sid 01 (port 0, "
             "node 1), did 11, cid 06, seq 05, err 07 (bad parameter value), data 01 02, chk 95");

@@ -48,10 +48,13 @@ struct Heard final : Listener {
       prints += print->text;
     if (const auto* drive = std::get_if<vm::event::Drive>(&event))
       rolls.push_back(drive->roll);
+    if (const auto* blow = std::get_if<vm::event::Collision>(&event))
+      blows.push_back(*blow);
   }
   void on_fault(Duration, const ProgramError&) override { ++faults; }
   std::string prints;
   std::vector<vm::Roll> rolls;
+  std::vector<vm::event::Collision> blows;
   int faults = 0;
 };
 
@@ -246,6 +249,92 @@ TEST(Tether, AMotorThatIsIgnoredGoesOn) {
   ASSERT_EQ(std::sscanf(heard.prints.c_str(), "%d %d", &yaw, &speed), 2) << heard.prints;
   EXPECT_GT(yaw, 180) << "the right wheel went on: it turned to the left";
   EXPECT_GT(speed, 10) << "and rolls again";
+}
+
+/// A line of a stimulus script.
+void happens(Robot& robot, const std::string& line) {
+  const Source source("test", line);
+  const auto script = vm::parse_stimulus(source);
+  ASSERT_TRUE(script.diagnostics.empty()) << line;
+  robot.ball->schedule(script.events);
+}
+
+TEST(Tether, EachRobotReportsTheWallItRunsInto) {
+  for (const auto& row : spec::robots) {
+    Robot robot(row.robot);
+    happens(robot, "at 0s wall y=30");
+    Heard heard;
+    const auto driven = run_on(robot, row.robot, "10 goroll 0,40,1\n20 delay 5000\n", heard);
+    ASSERT_TRUE(driven && !driven->failure) << row.name;
+    if (row.sensors == spec::RobotSensors::Services) // it detects none
+      continue;
+    EXPECT_GE(heard.blows.size(), 1U) << row.name;
+    if (!heard.blows.empty()) {
+      EXPECT_EQ(heard.blows.front().axis, 2) << row.name;
+      EXPECT_GT(heard.blows.front().y_magnitude, 10) << row.name;
+    }
+  }
+}
+
+TEST(Tether, ADoubleShakeIsToldFromTheSamples) {
+  for (const auto which : {spec::Robot::Sphero, spec::Robot::Mini, spec::Robot::Rvr}) {
+    const auto shaken = [&](std::string_view what) {
+      Robot robot(which);
+      happens(robot, fmt::format("at 3s {}", what));
+      Heard heard;
+      run_on(robot, which,
+             "10 for I = 1 to 90\n20 delay 50\n30 if dshake > 0 then print \"shaken\"\n"
+             "40 next I\n50 print accelone > 900\n",
+             heard);
+      return heard.prints;
+    };
+    EXPECT_NE(shaken("shake").find("shaken"), std::string::npos) << spec::info(which).name;
+    EXPECT_EQ(shaken("push 90 100").find("shaken"), std::string::npos) << spec::info(which).name;
+  }
+}
+
+TEST(Tether, ItsBatteryIsItsOwn) {
+  for (const auto& row : spec::robots) {
+    Robot robot(row.robot);
+    Heard heard;
+    const auto driven = run_on(robot, row.robot, "10 delay 200\n20 print Vbatt\n30 print Sbatt\n", heard);
+    ASSERT_TRUE(driven && !driven->failure) << row.name;
+    int volts = 0, state = 0;
+    ASSERT_EQ(std::sscanf(heard.prints.c_str(), "%d %d", &volts, &state), 2) << heard.prints;
+    EXPECT_NEAR(volts, 100 * spec::battery(row.robot).full, 5) << row.name;
+    EXPECT_EQ(state, 2) << row.name << " is low";
+  }
+}
+
+TEST(Tether, ARobotThatIsAboutToSleepIsKeptAwake) {
+  Robot robot(spec::Robot::Rvr);
+  Heard heard;
+  const auto inputs = test::program_of("10 delay 32000\n15 delay 32000\n20 goto 10\n");
+  TetherOptions options;
+  options.robot = spec::Robot::Rvr;
+  options.budgets.battery = 24h; // nothing else is asked
+  Options bounds;
+  bounds.bound = 700s;
+  const auto driven = run_tethered(inputs, bounds, heard, nullptr, *robot.link, options);
+  ASSERT_TRUE(driven.has_value());
+  EXPECT_FALSE(driven->failure) << driven->failure->message;
+}
+
+TEST(Tether, AnyBytesFromARobotAreNoValueOfTheProgram) {
+  for (const auto& row : spec::robots)
+    for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+      Robot robot(row.robot);
+      test::BabblingLink link(*robot.link, seed, row);
+      Heard heard;
+      const auto driven =
+          run_over(link, row.robot,
+                   "10 goroll 90,60,1\n20 for I = 1 to 40\n30 delay 50\n"
+                   "40 if abs(xpos) > 2000 then print \"far\"\n50 if speed > 255 then print \"fast\"\n"
+                   "60 next I\n",
+                   heard);
+      EXPECT_EQ(heard.prints, "") << row.name << " " << seed;
+      expect_stopped(robot, driven, std::string(row.name));
+    }
 }
 
 TEST(Tether, WithoutSamplesTheRobotIsStoppedAndTheRunEnds) {
