@@ -1,5 +1,6 @@
 #include "cli/robot/driven_robot.h"
 
+#include "run/tether/find_robot.h"
 #include "run/tether/hold_robot.h"
 
 namespace orb::cli {
@@ -13,6 +14,8 @@ tl::expected<spec::Robot, Failure> kind_of(const Link& link, const PortOptions& 
     return port.robot;
   if (link.named)
     return *link.named;
+  if (link.packets == spec::Packets::V2)
+    return run::find_newer_robot(*link.transport);
   return run::find_robot(*link.transport, patience);
 }
 
@@ -23,7 +26,6 @@ connect_robot(const Context& context, const PortOptions& given, const std::strin
   auto port = given;
   if (!name.empty())
     port.robot = spec::find_robot(name)->robot; // the options are checked
-  port.accepts = uploader::Accepts::All;
   auto opened = open_link(context, port);
   if (!opened)
     return tl::unexpected(opened.error());

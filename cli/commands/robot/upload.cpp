@@ -7,10 +7,11 @@
 #include "cli/input/target.h"
 #include "cli/many/many.h"
 #include "cli/model/checks.h"
-#include "cli/robot/link.h"
+#include "cli/robot/reach.h"
 #include "cli/terminal/interrupt.h"
 #include "cli/terminal/progress_bar.h"
 #include "run/delivery.h"
+#include "run/tether/hail.h"
 #include "spec/limits.h"
 
 #include <fmt/format.h>
@@ -164,6 +165,13 @@ ExitCode finish(const Context& context, const UploadOptions& options, Link& link
   return watched.faulted ? ExitCode::BadInput : watched.lost ? ExitCode::LinkLost : ExitCode::Done;
 }
 
+/// Why the robot at the other end takes no program.
+ExitCode refuse_newer(const Context& context, const UploadOptions& options, Link& link) {
+  const auto newer = find_newer(link, link.named);
+  const auto why = newer ? stores_nothing(*newer, options.port.port) : newer.error();
+  return fail(context, why.code, why.message);
+}
+
 ExitCode send(const Context& context, const UploadOptions& options,
               const uploader::Delivery& delivery, const Lookup& lookup, Row* row) {
   const InterruptGuard guard; // from here on the last word is what is on the ball
@@ -174,7 +182,11 @@ ExitCode send(const Context& context, const UploadOptions& options,
   if (!link)
     return fail(context, link.error().code, link.error().message);
   link->budgets.attempts = options.attempts;
-  uploader::Session session(*link->transport, link->budgets, link->first_seq);
+  if (link->packets == spec::Packets::V2)
+    return link->finish(context, refuse_newer(context, options, *link));
+  run::Hail hail(*link->transport);
+  uploader::Session session(link->packets ? *link->transport : hail, link->budgets,
+                            link->first_seq);
   const auto start = session.now();
   const auto battery =
       options.force ? uploader::BatteryPolicy::Ignore : uploader::BatteryPolicy::Refuse;
@@ -185,6 +197,8 @@ ExitCode send(const Context& context, const UploadOptions& options,
     ProgressBar progress(context); // is off the screen before anything is told
     report = deliver(session, delivery, battery, progress);
   }
+  if (hail.answered() == spec::Packets::V2)
+    return link->finish(context, refuse_newer(context, options, *link));
   return link->finish(context, finish(context, options, *link, session, report,
                                       session.now() - start, lookup, row));
 }
