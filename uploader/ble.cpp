@@ -256,7 +256,8 @@ open_ble(std::unique_ptr<Gatt> gatt, const Budgets& budgets, const Stop& stop,
 LinkError describe_open_error(const Endpoint& endpoint, const BleError& error) {
   if (error.failure == BleFailure::Interrupted)
     return {LinkError::Kind::Interrupted, error.seen};
-  return {error.failure == BleFailure::Undriven ? LinkError::Kind::Unfit : LinkError::Kind::CannotOpen,
+  return {error.failure == BleFailure::Undriven ? LinkError::Kind::Unfit
+                                                : LinkError::Kind::CannotOpen,
           fmt::format("cannot open {}: {}; {}", endpoint.text, error.seen, remedy(error))};
 }
 

@@ -11,7 +11,8 @@ namespace orb::uploader {
 
 /// Finds the robot, connects and opens it to commands; where a later try can help, it connects
 /// Budgets::opens times. The transport writes packets in pieces; a packet of which a piece is not
-/// acknowledged counts as lost. A robot whose name says that orb does not drive it is not connected.
+/// acknowledged counts as lost. A robot whose name says that orb does not drive it is not
+/// connected.
 tl::expected<std::unique_ptr<protocol::Transport>, BleError>
 open_ble(std::unique_ptr<Gatt> gatt, const Budgets& budgets, const Stop& stop,
          const OnBleStep& on_step, const OnBlePeer& on_peer = {});
