@@ -48,8 +48,8 @@ tl::expected<spec::Packets, Failure> find_packets(protocol::Transport& transport
     if (!asked)
       return tl::unexpected(lost(asked.error()));
   }
-  return tl::unexpected(Failure{
-      ExitCode::NoBall, "no robot answers; wake it, bring it closer, or run `orb doctor`"});
+  return tl::unexpected(
+      Failure{ExitCode::NoBall, "no robot answers; wake it, bring it closer, or run `orb doctor`"});
 }
 
 tl::expected<spec::Robot, Failure> find_robot(protocol::Transport& transport, Duration patience) {
@@ -64,12 +64,16 @@ tl::expected<std::vector<spec::Robot>, Failure> fitting_robots(protocol::Transpo
   for (const auto& row : spec::robots)
     if (row.packets == spec::Packets::V2)
       left.push_back(row.robot);
+  int answers = 0;
   TalkV2 talk(transport, spec::info(left.front())); // what it is asked is the same for all
   for (const auto did :
        {std::uint8_t{0x13}, std::uint8_t{0x17}, std::uint8_t{0x18}, std::uint8_t{0x1A}}) {
     const auto answer = talk.ask(spec::V2Command::GetCommandIds, {did});
     if (!answer && answer.error().code == ExitCode::Interrupted)
       return tl::unexpected(answer.error());
+    answers += answer ? 1 : 0;
+    if (!answer && answers == 0)
+      return tl::unexpected(Failure{ExitCode::NoBall, answer.error().message});
     if (answer && answer->error == 0)
       std::erase_if(left, [&](auto robot) { return !fits(spec::info(robot), did, answer->data); });
   }

@@ -10,8 +10,8 @@
 
 namespace orb::run {
 
-/// A link of which nobody knows yet which packets are spoken there. What is asked in packets v1 goes
-/// out as it is; only where nothing has answered it for a while, a ping of packets v2 follows.
+/// A link of which nobody knows yet which packets are spoken there. What is asked in packets v1
+/// goes out as it is; only where nothing has answered it for a while, a ping of packets v2 follows.
 class Hail final : public protocol::Transport {
 public:
   /// `link` must outlive it.
