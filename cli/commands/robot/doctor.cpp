@@ -5,6 +5,8 @@
 #include "cli/context/json.h"
 #include "cli/robot/reach.h"
 #include "cli/terminal/interrupt.h"
+#include "protocol/packet.h"
+#include "protocol/payload.h"
 #include "run/tether/hail.h"
 #include "uploader/bluez.h"
 #include "uploader/endpoint.h"
@@ -44,7 +46,7 @@ tl::expected<void, Failure> look_at(Checkup& checkup, Link& link, const Newer& n
   run::TalkV2 talk(*link.transport, newer.robot);
   if (const auto pinged = talk.request(spec::V2Command::Ping); !pinged)
     return tl::unexpected(pinged.error());
-  checkup.good(fmt::format("a {} answers", newer.title));
+  checkup.good(fmt::format("{} answers", with_article(newer.title)));
   const auto answer = talk.ask(spec::V2Command::GetVoltageState);
   if (!answer)
     return tl::unexpected(answer.error());
@@ -60,6 +62,42 @@ tl::expected<void, Failure> look_at(Checkup& checkup, Link& link, const Newer& n
   return {};
 }
 
+/// What is sent comes back: the wires are good.
+void tell_echo(Checkup& checkup) {
+  checkup.bad(
+      "the port echoes: TX and RX are connected together, and the UART itself works",
+      "take the bridge off and connect the RVR: TX of the computer to RX of the robot, RX to "
+      "TX, ground to ground");
+}
+
+/// What helped owners of an RVR whose UART was silent. Source: LIB
+void tell_of_uart(Checkup& checkup) {
+  checkup.bad("on a serial port an RVR may not listen yet",
+              "update it once with the vendor's app: with its first firmware the UART was off");
+  checkup.bad("or its wires are not where they should be",
+              "connect TX to RX, RX to TX and ground to ground");
+  checkup.bad("or the computer keeps the port for itself",
+              "on a Raspberry Pi use `/dev/serial0`, write `enable_uart=1` in config.txt and take "
+              "`console=serial0,115200` out of cmdline.txt, then restart");
+  checkup.bad("or the port itself does not work",
+              "join TX and RX with a wire and run this command again: a port that works echoes");
+}
+
+/// Why nothing answers: what was heard, and what helps where that was nothing at all.
+void tell_silence(Checkup& checkup, Link& link, std::string_view what, std::string_view why) {
+  constexpr Duration patience = 600ms;
+  run::Hail hail(*link.transport);
+  auto heard = hail.write(protocol::encode(protocol::make_command(spec::ApiCommand::Ping, {})));
+  for (const auto until = hail.now() + patience; heard && hail.now() < until && !hail.echoes();)
+    if (const auto read = hail.read(until); !read)
+      heard = tl::unexpected(read.error());
+  if (hail.echoes())
+    return tell_echo(checkup);
+  checkup.bad(what, why);
+  if (link.is_uart && heard)
+    tell_of_uart(checkup);
+}
+
 /// Finds out which robot of packets v2 is there, and looks at it.
 void check_newer(Checkup& checkup, Link& link, std::optional<spec::Robot> told,
                  std::string_view given) {
@@ -68,29 +106,7 @@ void check_newer(Checkup& checkup, Link& link, std::optional<spec::Robot> told,
     return checkup.bad("a newer robot answers but does not say which model it is",
                        newer.error().message);
   if (const auto done = look_at(checkup, link, *newer); !done)
-    checkup.bad("no robot answers", name_robot(link, given, done.error()).message);
-}
-
-/// What is sent comes back: the wires are good.
-void tell_echo(Checkup& checkup) {
-  checkup.bad("the port echoes: TX and RX are connected together, and the UART itself works",
-              "take the bridge off and connect the RVR: TX of the computer to RX of the robot, RX to "
-              "TX, ground to ground");
-}
-
-/// What helped owners of an RVR whose UART was silent. Source: LIB
-void tell_of_uart(Checkup& checkup) {
-  checkup.bad("on a serial port the robot can only be an RVR, which may not listen there yet",
-              "update it once with the vendor's app: with its first firmware the UART was off");
-  checkup.bad("or the wires are wrong",
-              "connect TX to RX, RX to TX and ground to ground; use `/dev/serial0` on a Raspberry "
-              "Pi");
-  checkup.bad("or the Raspberry Pi keeps the port for itself",
-              "write `enable_uart=1` in config.txt and take `console=serial0,115200` out of "
-              "cmdline.txt (`sudo raspi-config` does both), then restart");
-  checkup.bad("or the port itself does not work",
-              "join TX and RX with a wire and run this command again: it then says that the port "
-              "echoes");
+    tell_silence(checkup, link, "no robot answers", name_robot(link, given, done.error()).message);
 }
 
 /// Opens the link and greets the ball.
@@ -131,12 +147,7 @@ void check_ball(Context& context, Checkup& checkup, const PortOptions& given,
     const auto code = exit_code(greeting.error().kind);
     if (code == ExitCode::Interrupted)
       return fail(context, {code, greeting.error().message});
-    if (hail.echoes())
-      return tell_echo(checkup);
-    checkup.bad("no ball answers", greeting.error().message);
-    if (link->is_uart)
-      tell_of_uart(checkup);
-    return;
+    return tell_silence(checkup, *link, "no ball answers", greeting.error().message);
   }
   checkup.good(link->is_sim ? "the built-in virtual ball answers" : "a ball answers");
   if (const auto noise = session.counts().noise_in; noise > 0)
