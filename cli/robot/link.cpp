@@ -7,11 +7,11 @@
 #include "cli/terminal/interrupt.h"
 #include "compiler/load.h"
 #include "disk/disk.h"
+#include "spec/packet_v2.h"
 #include "uploader/ble.h"
 #include "uploader/device_words.h"
 #include "uploader/endpoint.h"
 #include "vm/ball_transport.h"
-#include "spec/packet_v2.h"
 #include "vm/bluetooth.h"
 
 #include <fmt/format.h>
@@ -254,8 +254,7 @@ ExitCode exit_code_of(protocol::LinkError::Kind kind) {
 tl::expected<void, Failure> open_real(Link& link, const Endpoint& endpoint,
                                       const uploader::OnBleStep& on_step) {
   const auto meet = [&link](const uploader::BlePeer& peer) {
-    link.packets =
-        peer.protocol == spec::BleProtocol::V2 ? spec::Packets::V2 : spec::Packets::V1;
+    link.packets = peer.protocol == spec::BleProtocol::V2 ? spec::Packets::V2 : spec::Packets::V1;
     const auto called = robot_called(peer.name);
     if (!link.named && called && spec::info(*called).packets == link.packets)
       link.named = called;
@@ -310,7 +309,9 @@ tl::expected<Link, Failure> open_link(const Context& context, const PortOptions&
     link.transport =
         std::make_unique<protocol::RecordingTransport>(std::move(link.transport), *link.log);
   }
-  link.transport = std::make_unique<InterruptibleTransport>(std::move(link.transport));
+  auto stopper = std::make_unique<InterruptibleTransport>(std::move(link.transport));
+  link.stopper = stopper.get();
+  link.transport = std::move(stopper);
   return link;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "cli/context/context.h"
+#include "cli/terminal/interrupt.h"
 #include "disk/disk.h"
 #include "protocol/recording.h"
 #include "uploader/ble_error.h"
@@ -78,11 +79,12 @@ struct Link {
   uploader::Budgets budgets;
   std::uint8_t first_seq = 0;
   std::unique_ptr<WireLog> log;
-  std::unique_ptr<vm::Ball> ball;     ///< of `sim:`
-  std::unique_ptr<vm::RobotV2> robot; ///< the same, where it speaks packets v2
+  std::unique_ptr<vm::Ball> ball;       ///< of `sim:`
+  std::unique_ptr<vm::RobotV2> robot;   ///< the same, where it speaks packets v2
   std::optional<spec::Robot> named;     ///< the robot that its name tells
   std::optional<spec::Packets> packets; ///< that the link tells: one that is classic Bluetooth, say
   std::unique_ptr<protocol::Transport> transport;
+  InterruptibleTransport* stopper = nullptr; ///< the outermost layer of `transport`
 
   /// Puts the recording into its place, if there is one; after a failure beside an older one. The
   /// code to end with: `exit`, where that is a failure already, whatever becomes of the recording.
