@@ -20,7 +20,10 @@ bool is_newer(spec::Robot robot) {
 std::string titles(const std::vector<spec::Robot>& robots) {
   std::string text;
   for (std::size_t i = 0; i < robots.size(); ++i)
-    text += fmt::format("{}{}", i == 0 ? "" : i + 1 == robots.size() ? " or " : ", ",
+    text += fmt::format("{}{}",
+                        i == 0                   ? ""
+                        : i + 1 == robots.size() ? " or "
+                                                 : ", ",
                         spec::info(robots[i]).title);
   return text;
 }
@@ -70,8 +73,8 @@ ExitCode work_with(Context& context, Link& link, std::string_view given, const T
     if (greeting)
       return talks.classic(link, session, *greeting);
     if (hail.answered() != spec::Packets::V2) {
-      fail(context, name_robot(link, given,
-                               {exit_code(greeting.error().kind), greeting.error().message}));
+      fail(context,
+           name_robot(link, given, {exit_code(greeting.error().kind), greeting.error().message}));
       return context.exit;
     }
   }
@@ -136,18 +139,22 @@ void with_firmware(
     }
     return work(link, session, greeting);
   };
-  const auto newer = [&](Link&, run::TalkV2&,
-                         const Newer& robot) -> tl::expected<void, Failure> {
+  const auto newer = [&](Link&, run::TalkV2&, const Newer& robot) -> tl::expected<void, Failure> {
     return tl::unexpected(stores_nothing(robot, options.port));
   };
   with_robot(context, options, {}, {classic, newer});
 }
 
+std::string with_article(std::string_view title) {
+  const bool vowel = title.starts_with("R2") || title.starts_with("O");
+  return fmt::format("{} {}", vowel ? "an" : "a", title);
+}
+
 Failure stores_nothing(const Newer& robot, std::string_view port) {
   return {ExitCode::Refused,
-          fmt::format("the robot is a {}, which stores no programs; drive it from here: `orb run "
+          fmt::format("the robot is {}, which stores no programs; drive it from here: `orb run "
                       "PROGRAM --port {}`",
-                      robot.title, port)};
+                      with_article(robot.title), port)};
 }
 
 Failure name_robot(Link& link, std::string_view robot, Failure failure) {
@@ -162,8 +169,8 @@ Failure name_robot(Link& link, std::string_view robot, Failure failure) {
   if (there.empty() || std::any_of(there.begin(), there.end(), is_given))
     return failure;
   failure.message +=
-      fmt::format("; the robot is a {}: omit `--robot {}`, or write `--robot {}`", titles(there),
-                  given->name, spec::info(there.front()).name);
+      fmt::format("; the robot is {}: omit `--robot {}`, or write `--robot {}`",
+                  with_article(titles(there)), given->name, spec::info(there.front()).name);
   return failure;
 }
 

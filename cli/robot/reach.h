@@ -38,10 +38,10 @@ struct Talks {
   std::function<tl::expected<void, Failure>(Link&, run::TalkV2&, const Newer&)> newer;
 };
 
-/// Opens the link that the options name, finds out who answers and has `talks` do its job: the shape
-/// of the small commands. A classic ball is greeted as ever; a newer robot shows by its silence.
-/// `robot` is what `--robot` says, empty for nothing. Errors are printed; the exit code is left in
-/// the context.
+/// Opens the link that the options name, finds out who answers and has `talks` do its job: the
+/// shape of the small commands. A classic ball is greeted as ever; a newer robot shows by its
+/// silence. `robot` is what `--robot` says, empty for nothing. Errors are printed; the exit code is
+/// left in the context.
 void with_robot(Context& context, const PortOptions& options, std::string_view robot,
                 const Talks& talks);
 
@@ -51,11 +51,14 @@ void with_firmware(
     Context& context, const PortOptions& options,
     const std::function<ExitCode(Link&, uploader::Session&, const uploader::Greeting&)>& work);
 
+/// `a Sphero BOLT`, `an R2-D2`.
+std::string with_article(std::string_view title);
+
 /// Why a robot of packets v2 gets no program, and what runs one on it.
 Failure stores_nothing(const Newer& robot, std::string_view port);
 
-/// A failure, and which robot is there where `robot`, from `--robot`, names another one. It is asked
-/// only now, so that nothing is lost where all goes well.
+/// A failure, and which robot is there where `robot`, from `--robot`, names another one. It is
+/// asked only now, so that nothing is lost where all goes well.
 Failure name_robot(Link& link, std::string_view robot, Failure failure);
 
 } // namespace orb::cli

@@ -255,7 +255,8 @@ ExitCode tell_all_v1(const Context& context, const std::string& format, Link& li
     text += power_text(*greeting.power);
   if (const auto radio = request(session, ApiCommand::GetBluetoothInfo)) {
     const Fields fields(ApiCommand::GetBluetoothInfo, radio->data);
-    text += fmt::format("name      {}\naddress   {}\n", fields.text("name"), fields.text("address"));
+    text +=
+        fmt::format("name      {}\naddress   {}\n", fields.text("name"), fields.text("address"));
     json["name"] = fields.text("name");
     json["address"] = fields.text("address");
   } else if (radio.error().kind != uploader::Report::Kind::Refused) {

@@ -198,9 +198,14 @@ public:
     return onlooker_ ? ask_all(onlooker_->stream()) : tl::expected<void, Failure>();
   }
   void end() {
-    if (onlooker_)
+    if (onlooker_ && !ended_)
       static_cast<void>(ask_all(onlooker_->silence())); // the link may be gone
+    ended_ = true;
   }
+  /// Also where nobody reads any more.
+  ~Camera() override { end(); }
+  Camera(const Camera&) = delete;
+  Camera& operator=(const Camera&) = delete;
 
   bool takes(const Async& message) override {
     if (!onlooker_)
@@ -234,6 +239,7 @@ private:
   Duration lasts_;
   Instant began_;
   std::optional<run::Onlooker> onlooker_;
+  bool ended_ = false;
 };
 
 /// The report and the drawing of what was seen.
@@ -294,9 +300,9 @@ std::vector<run::Input> read_program(const run::LineMap& map) {
 /// Why there is no page of a robot that keeps no programs.
 Failure draws_nothing(const Newer& robot, std::string_view port) {
   return {ExitCode::Usage,
-          fmt::format("the robot is a {}, which runs no programs by itself; `orb run PROGRAM --port "
+          fmt::format("the robot is {}, which runs no programs by itself; `orb run PROGRAM --port "
                       "{} --report OUT.html` drives it and shows where it went",
-                      robot.title, port)};
+                      with_article(robot.title), port)};
 }
 
 void listen(Context& context, const MonitorOptions& options) {

@@ -77,7 +77,10 @@ public:
       asked = ask_all(collisions(wire_->setup(run::Aim::Keep)));
     return asked ? ask_all(wire_->stream({})) : asked;
   }
-  void end() {
+  Watch(const Watch&) = delete;
+  Watch& operator=(const Watch&) = delete;
+  /// Silences it, also where nobody reads any more.
+  ~Watch() {
     static_cast<void>(ask_all(wire_->silence())); // the link may be gone
     static_cast<void>(ask_all(collisions(wire_->teardown())));
   }
@@ -103,9 +106,8 @@ private:
   /// Of what readies a robot for a run, what it needs to tell of collisions: nothing moves.
   static std::vector<run::Request> collisions(std::vector<run::Request> all) {
     const auto& row = spec::info(spec::V2Command::CollisionDetection);
-    std::erase_if(all, [&](const run::Request& one) {
-      return one.did != row.did() || one.cid != row.cid();
-    });
+    std::erase_if(
+        all, [&](const run::Request& one) { return one.did != row.did() || one.cid != row.cid(); });
     return all;
   }
 
@@ -204,11 +206,11 @@ tl::expected<void, Failure> watch_newer(const Context& context, Link& link, cons
   auto begun = watch.begin();
   if (begun) {
     print_note(context, lasts == Duration{} ? "listening; Ctrl-C to stop" : "listening");
-    begun = watch.listen(lasts);
+    constexpr Duration of_sim = 1s; // it stands there, and its time costs nothing
+    begun = watch.listen(link.is_sim && lasts == Duration{} ? of_sim : lasts);
     if (!begun && begun.error().code == ExitCode::Interrupted)
       begun = {}; // that is how it ends
   }
-  watch.end();
   return begun;
 }
 
