@@ -23,6 +23,7 @@ constexpr auto flags = std::to_array<Flag>({{"no-daemon", &BleFaultPlan::no_daem
                                             {"away", &BleFaultPlan::away},
                                             {"held", &BleFaultPlan::held},
                                             {"newer", &BleFaultPlan::newer},
+                                            {"undriven", &BleFaultPlan::undriven},
                                             {"mute", &BleFaultPlan::mute}});
 
 struct Place {

@@ -28,11 +28,12 @@ struct BleFaultPlan {
   bool no_daemon = false;           ///< there is no bluetoothd
   bool no_adapter = false;
   bool adapter_off = false;
-  bool denied = false; ///< the user may not speak to bluetoothd
-  bool away = false;   ///< the robot is not near
-  bool held = false;   ///< another program has its notifications
-  bool newer = false;  ///< it has the characteristics of the newer protocol
-  bool mute = false;   ///< it answers nothing
+  bool denied = false;   ///< the user may not speak to bluetoothd
+  bool away = false;     ///< the robot is not near
+  bool held = false;     ///< another program has its notifications
+  bool newer = false;    ///< it has the characteristics of the newer protocol
+  bool undriven = false; ///< it is of a kind that orb does not drive
+  bool mute = false;     ///< it answers nothing
   std::uint64_t seed = 1;
 };
 

@@ -128,6 +128,8 @@ public:
         balk_once_(computer.plan().balk_once) {
     for (std::size_t i = 0; i + 1 < address.size(); i += 2)
       address_ += (i > 0 ? ":" : "") + address.substr(i, 2);
+    if (computer_.plan().undriven)
+      name_.replace(0, name_.find('-') + 1, spec::info(spec::BleModel::McQueen).prefix);
     path_ = fmt::format("{}/dev_{}", adapter_path, address_);
     std::ranges::replace(path_, ':', '_');
     computer_.add(*this);

@@ -16,7 +16,11 @@ enum class BleService : std::uint8_t {
 #include "spec/ble.def"
 };
 
-enum class BleProtocol : std::uint8_t { V1, V2 };
+enum class BleProtocol : std::uint8_t {
+  V1,
+  V2,
+  None ///< neither: the robot is known by its name, and not driven
+};
 
 struct BleServiceInfo {
   BleService service;

@@ -32,7 +32,7 @@ constexpr auto failures = std::to_array<FailureInfo>({
     {BleFailure::Ambiguous,    "name one by its address; `orb ports` lists them", false},
     {BleFailure::NotConnected, "shake the robot awake, bring it closer, and close any app or disconnect any phone that may be using it", true},
     {BleFailure::NotResolved,  "bring the robot closer and try again; `bluetoothctl remove ADDRESS` makes the computer discover it again", true},
-    {BleFailure::Newer,        "drive it from here: `orb run PROGRAM --port ble://ADDRESS`", false},
+    {BleFailure::Undriven,     "`orb ports` lists robots", false},
     {BleFailure::NoRobot,      "`orb ports` lists robots", false},
     {BleFailure::Refused,      "shake the robot and try again; `bluetoothctl remove ADDRESS` makes the computer discover it again", true},
     {BleFailure::Held,         "close that program, or disconnect the robot with `bluetoothctl disconnect ADDRESS`", false},
@@ -109,17 +109,22 @@ private:
 class Opening {
 public:
   Opening(Gatt& gatt, const Budgets& budgets, const Stop& stop, const OnBleStep& on_step,
-          Accepts accepts)
-      : gatt_(gatt), budgets_(budgets), stop_(stop), on_step_(on_step), accepts_(accepts) {}
+          const OnBlePeer& on_peer)
+      : gatt_(gatt), budgets_(budgets), stop_(stop), on_step_(on_step), on_peer_(on_peer) {}
 
   tl::expected<void, BleError> run() {
     for (const auto step : {BleStep::Bus, BleStep::Adapter, BleStep::Find})
       if (auto done = take(step); !done)
         return give_up(done.error());
+    if (auto why = undriven(gatt_.name()))
+      return give_up({BleFailure::Undriven, *std::move(why)});
     for (int time = 1;; ++time) {
       auto done = connect();
-      if (done)
+      if (done) {
+        if (on_peer_)
+          on_peer_({gatt_.name(), protocol_});
         return {};
+      }
       if (time >= budgets_.opens || !info(done.error().failure).again || stop_() > 0)
         return give_up(done.error());
       gatt_.let_go(); // what a link has not given it will not give later
@@ -187,9 +192,6 @@ private:
   tl::expected<void, BleError> check_characteristics() {
     const bool is_v2 = gatt_.has(BleCharacteristic::PacketsV2);
     protocol_ = is_v2 ? spec::BleProtocol::V2 : spec::BleProtocol::V1;
-    if (is_v2 && accepts_ == Accepts::V1)
-      return tl::unexpected(
-          BleError{BleFailure::Newer, "this robot stores no programs and speaks v2 packets"});
     for (const auto& row : spec::ble_characteristics)
       if (!is_v2 && spec::protocol_of(row.characteristic) == spec::BleProtocol::V1 &&
           !gatt_.has(row.characteristic))
@@ -219,13 +221,20 @@ private:
   const Budgets& budgets_;
   const Stop& stop_;
   const OnBleStep& on_step_;
-  Accepts accepts_;
+  const OnBlePeer& on_peer_;
   spec::BleProtocol protocol_ = spec::BleProtocol::V1;
   BleStep step_{};
   std::optional<BleStep> told_;
 };
 
 } // namespace
+
+std::optional<std::string> undriven(std::string_view name) {
+  const auto* row = spec::find_ble_name(name);
+  if (row == nullptr || row->protocol != spec::BleProtocol::None)
+    return std::nullopt;
+  return fmt::format("`{}` is a {}, which orb knows but cannot drive", name, row->robot);
+}
 
 std::string remedy(const BleError& error) {
   constexpr std::string_view placeholder = "ADDRESS";
@@ -237,8 +246,8 @@ std::string remedy(const BleError& error) {
 
 tl::expected<std::unique_ptr<protocol::Transport>, BleError>
 open_ble(std::unique_ptr<Gatt> gatt, const Budgets& budgets, const Stop& stop,
-         const OnBleStep& on_step, Accepts accepts) {
-  Opening opening(*gatt, budgets, stop, on_step, accepts);
+         const OnBleStep& on_step, const OnBlePeer& on_peer) {
+  Opening opening(*gatt, budgets, stop, on_step, on_peer);
   if (const auto opened = opening.run(); !opened)
     return tl::unexpected(opened.error());
   return std::make_unique<BleTransport>(std::move(gatt), opening.protocol(), budgets, stop);
@@ -247,7 +256,8 @@ open_ble(std::unique_ptr<Gatt> gatt, const Budgets& budgets, const Stop& stop,
 LinkError describe_open_error(const Endpoint& endpoint, const BleError& error) {
   if (error.failure == BleFailure::Interrupted)
     return {LinkError::Kind::Interrupted, error.seen};
-  return {error.failure == BleFailure::Newer ? LinkError::Kind::Unfit : LinkError::Kind::CannotOpen,
+  return {error.failure == BleFailure::Undriven ? LinkError::Kind::Unfit
+                                                : LinkError::Kind::CannotOpen,
           fmt::format("cannot open {}: {}; {}", endpoint.text, error.seen, remedy(error))};
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "protocol/ble.h"
+#include "spec/ble.h"
 
 #include <cstdint>
 #include <functional>
@@ -25,7 +26,7 @@ enum class BleFailure : std::uint8_t {
   Ambiguous,
   NotConnected,
   NotResolved,
-  Newer,
+  Undriven, ///< it is known, and orb does not drive it
   NoRobot,
   Refused,
   Held,
@@ -45,5 +46,13 @@ std::string remedy(const BleError& error);
 /// Hears of each step to a robot once: what was found, or why it ends there.
 using OnBleStep =
     std::function<void(protocol::BleStep step, const tl::expected<std::string, BleError>& found)>;
+
+/// A robot at the other end of a link.
+struct BlePeer {
+  std::string name; ///< as it advertises it; empty where it tells none
+  spec::BleProtocol protocol{};
+};
+/// Hears of the robot once the link to it is open.
+using OnBlePeer = std::function<void(const BlePeer&)>;
 
 } // namespace orb::uploader

@@ -85,6 +85,10 @@ public:
     return bus_ == nullptr || device_.empty() ? std::string() : describe(*bus_, device_).address;
   }
 
+  std::string name() const override {
+    return bus_ == nullptr || device_.empty() ? std::string() : describe(*bus_, device_).name;
+  }
+
   void let_go() override { hang_up(); }
 
   tl::expected<void, BleError> write(BleCharacteristic characteristic, ByteView bytes,

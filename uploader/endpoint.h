@@ -52,19 +52,13 @@ using Stop = std::function<int()>;
 /// What is said of a link that nobody waits for any more before it is open.
 inline constexpr auto interrupted_opening = "interrupted; the ball is unchanged";
 
-/// What a caller can do with a robot that has been found.
-enum class Accepts : std::uint8_t {
-  V1,  ///< those of packets v1 alone: they hold programs
-  All, ///< those of packets v2, too
-};
-
 /// Opens the link: raw, exclusive and without old bytes. Tries Budgets::opens times where a later
 /// try can help. Not for Sim and Replay. The error says what helps; it is Interrupted within
 /// stop_notice of `stop`, and so is a write of the link that cannot go on when `stop` is one more.
-/// `on_step` hears of the steps of Bluetooth LE.
+/// `on_step` hears of the steps of Bluetooth LE, `on_peer` of the robot that they lead to.
 tl::expected<std::unique_ptr<protocol::Transport>, protocol::LinkError>
 open(const Endpoint& endpoint, const Budgets& budgets, const Stop& stop,
-     const OnBleStep& on_step = {}, Accepts accepts = Accepts::V1);
+     const OnBleStep& on_step = {}, const OnBlePeer& on_peer = {});
 
 /// The bytes of a `sockaddr_rc` for connect(2): family, the address with its last byte first,
 /// channel. Written by hand because the kernel's header comes with the GPL.

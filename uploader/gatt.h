@@ -39,6 +39,9 @@ public:
   /// The robot's address, for what helps; empty where it is not known yet.
   virtual std::string address() const = 0;
 
+  /// The name that it advertises; empty where it is not known.
+  virtual std::string name() const = 0;
+
   /// Ends the link to the robot if it was made here, so that the next step Connect makes a new one.
   virtual void let_go() = 0;
 

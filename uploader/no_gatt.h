@@ -18,6 +18,7 @@ public:
   bool has(spec::BleCharacteristic) const override { return false; }
   bool held(spec::BleCharacteristic) const override { return false; }
   std::string address() const override { return {}; }
+  std::string name() const override { return {}; }
   void let_go() override {}
   tl::expected<void, BleError> write(spec::BleCharacteristic, ByteView, const Patience&) override {
     return tl::unexpected(why_);

@@ -78,9 +78,9 @@ Opened open_once(const Endpoint& endpoint, const Budgets& budgets, const Stop& s
 } // namespace
 
 Opened open(const Endpoint& endpoint, const Budgets& budgets, const Stop& stop,
-            const OnBleStep& on_step, Accepts accepts) {
+            const OnBleStep& on_step, const OnBlePeer& on_peer) {
   if (endpoint.scheme == Scheme::Ble) {
-    auto opened = open_ble(make_bluez_gatt(endpoint), budgets, stop, on_step, accepts);
+    auto opened = open_ble(make_bluez_gatt(endpoint), budgets, stop, on_step, on_peer);
     if (!opened)
       return tl::unexpected(describe_open_error(endpoint, opened.error()));
     return *std::move(opened);

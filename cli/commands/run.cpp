@@ -14,6 +14,7 @@
 #include "cli/run/run_options.h"
 #include "cli/run/run_robots.h"
 #include "cli/terminal/browser.h"
+#include "cli/terminal/interrupt.h"
 #include "cli/terminal/watch.h"
 #include "disk/disk.h"
 #include "report/page.h"
@@ -219,16 +220,19 @@ tl::expected<void, Failure> run_files(Context& context, RunOptions given) {
   if (!given.report.empty() || !given.svg.empty())
     journey.emplace();
   auto* const notes = journey ? &*journey : nullptr;
-  std::optional<Failure> broken;          // why a run on a robot could not go on
+  std::optional<Failure> broken; // why a run on a robot could not go on
+  std::optional<Slept> slept;
   std::optional<report::Journey> planned; // what the virtual ball does in place of a robot
   const auto ending = [&]() -> tl::expected<run::Ending, Failure> {
     if (given.port.port.empty() && given.replay.empty())
       return run::run(*inputs, *options, console, notes);
-    auto driven = given.replay.empty()
-                      ? run_on_robot(context, given, *options, *inputs, console, notes)
-                      : replay_drive(given, *options, *inputs, console, notes);
-    if (!driven)
-      return tl::unexpected(driven.error());
+    auto on_robot = given.replay.empty()
+                        ? run_on_robot(context, given, *options, *inputs, console, notes)
+                        : replay_drive(given, *options, *inputs, console, notes);
+    if (!on_robot)
+      return tl::unexpected(on_robot.error());
+    slept = std::move(on_robot->slept);
+    auto* driven = &on_robot->driven;
     broken = std::move(driven->failure);
     if (!given.svg.empty() && options->asks == run::Asks::No)
       plan(*inputs, *options, driven->robot, planned.emplace());
@@ -250,11 +254,15 @@ tl::expected<void, Failure> run_files(Context& context, RunOptions given) {
     hint_at_guesses(context, given, **profile, console);
   if (ending->robot_stopped)
     print_note(context, stop_note(*ending));
+  if (slept)
+    print_note(context, slept->words);
   if (!ending->only_interpreted.empty() && context.verbosity > 0)
     print_note(context, fmt::format("only interpreted: {}", ending->only_interpreted));
   write_perf_map(context, ending->machine_code);
   if (given.open && !given.watch && written)
     show(context, given);
+  if (console.lost() && InterruptGuard::asked() == 0)
+    throw *console.lost(); // the robot is at rest now
   if (broken)
     return tl::unexpected(*std::move(broken));
   if (auto good = judge(given, *ending); !good)
@@ -269,6 +277,8 @@ tl::expected<void, Failure> run_files(Context& context, RunOptions given) {
     context.exit = ExitCode::File;
   else if (!ending->robot_stopped.value_or(true))
     context.exit = ExitCode::LinkLost;
+  else if (slept)
+    context.exit = slept->exit;
   return {};
 }
 
@@ -315,6 +325,8 @@ void run_with_report(Context& context, RunOptions& options) {
     return fail(context, {ExitCode::Usage, "`--record` records a run on a robot; add `--port`"});
   if (!options.replay.empty() && !options.port.port.empty())
     return fail(context, {ExitCode::Usage, "`--replay` needs no robot; omit `--port`"});
+  if (options.sleeps && options.port.port.empty())
+    return fail(context, {ExitCode::Usage, "`--sleep` puts a robot to sleep; add `--port`"});
   if (options.watch && !options.port.port.empty())
     return fail(context,
                 {ExitCode::Usage, "`--watch` would drive the robot on every change; do not "
@@ -405,6 +417,7 @@ void add_tether_options(const Command& command, RunOptions& options) {
   command.add_option("--record", options.record, "records all traffic with the robot in this file");
   command.add_option("--replay", options.replay,
                      "repeats the run from such a recording, without a robot");
+  add_sleep_option(command, options.sleeps);
   command.add_flag("--no-aim", options.keep_aim,
                    "keeps the robot's heading and position; otherwise both start at 0");
 }

@@ -1,10 +1,13 @@
 #include "cli/robot/driven_robot.h"
 
 #include "base/duration.h"
-
+#include "cli/robot/reach.h"
+#include "run/tether/find_robot.h"
 #include "run/tether/hold_robot.h"
 
 #include <algorithm>
+#include <chrono>
+#include <thread>
 
 namespace orb::cli {
 namespace {
@@ -17,7 +20,27 @@ tl::expected<spec::Robot, Failure> kind_of(const Link& link, const PortOptions& 
     return port.robot;
   if (link.named)
     return *link.named;
+  if (link.packets == spec::Packets::V2)
+    return run::find_newer_robot(*link.transport);
   return run::find_robot(*link.transport, patience);
+}
+
+/// The same port once more: the robot drives until it is told to stop, or stops by itself.
+std::unique_ptr<protocol::Transport> open_again(const Context& context, const PortOptions& port,
+                                                DrivenRobot& robot) {
+  constexpr auto pause = std::chrono::milliseconds{100};
+  using Clock = std::chrono::steady_clock;
+  robot.link.stopper->close(); // a device has one user at a time
+  const int asked = InterruptGuard::asked();
+  const auto until = Clock::now() + spec::v2_drive_timeout + robot.link.budgets.answer;
+  do {
+    if (auto again = open_link(context, port)) {
+      robot.again = std::make_unique<Link>(*std::move(again));
+      return std::move(robot.again->transport);
+    }
+    std::this_thread::sleep_for(pause);
+  } while (Clock::now() < until && InterruptGuard::asked() == asked);
+  return nullptr;
 }
 
 } // namespace
@@ -27,7 +50,6 @@ connect_robot(const Context& context, const PortOptions& given, const std::strin
   auto port = given;
   if (!name.empty())
     port.robot = spec::find_robot(name)->robot; // the options are checked
-  port.accepts = uploader::Accepts::All;
   auto opened = open_link(context, port);
   if (!opened)
     return tl::unexpected(opened.error());
@@ -43,13 +65,8 @@ connect_robot(const Context& context, const PortOptions& given, const std::strin
   robot->tether.budgets.collisions = {port.collision_threshold, port.collision_threshold};
   robot->tether.note = [&context](const std::string& message) { print_note(context, message); };
   if (!robot->link.is_sim)
-    robot->tether.reopen = [&context, port,
-                            &again = robot->again]() -> std::unique_ptr<protocol::Transport> {
-      auto second = open_link(context, port);
-      if (!second)
-        return nullptr;
-      again = std::make_unique<Link>(*std::move(second));
-      return std::move(again->transport);
+    robot->tether.reopen = [&context, port, &robot = *robot] {
+      return open_again(context, port, robot);
     };
   return robot;
 }
@@ -65,7 +82,7 @@ hold_robot(const Context& context, const PortOptions& port, const std::string& n
     return tl::unexpected(robot.error());
   auto held = run::hold_robot(*(*robot)->link.transport, (*robot)->tether);
   if (!held)
-    return tl::unexpected(held.error());
+    return tl::unexpected(name_robot((*robot)->link, name, held.error()));
   const auto both = std::make_shared<Both>();
   both->robot = *std::move(robot);
   both->held = *std::move(held);

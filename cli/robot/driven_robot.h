@@ -19,7 +19,9 @@ struct DrivenRobot {
 };
 
 /// Opens the link that `port` names. `name` says which robot answers there; where it is empty, the
-/// name in the port tells, or the robot itself is asked.
+/// name in the port tells, or the robot itself is asked. A link that is lost is opened again as
+/// soon as that works, within the time that the robot needs to stop by itself and that for one
+/// answer.
 tl::expected<std::unique_ptr<DrivenRobot>, Failure>
 connect_robot(const Context& context, const PortOptions& port, const std::string& name);
 

@@ -7,6 +7,7 @@
 #include "cli/terminal/interrupt.h"
 #include "compiler/load.h"
 #include "disk/disk.h"
+#include "spec/packet_v2.h"
 #include "uploader/ble.h"
 #include "uploader/device_words.h"
 #include "uploader/endpoint.h"
@@ -152,6 +153,19 @@ tl::expected<Endpoint, Failure> find_endpoint(const Config& config, const std::s
   return *endpoint;
 }
 
+namespace {
+
+/// The robot that advertises such a name; nothing where several kinds do, or none.
+std::optional<spec::Robot> robot_called(std::string_view name) {
+  const auto* known = spec::find_ble_name(name);
+  for (const auto& row : spec::robots)
+    if (known != nullptr && row.ble == known->model && row.robot != spec::Robot::Sphero)
+      return row.robot;
+  return std::nullopt;
+}
+
+} // namespace
+
 std::optional<spec::Robot> named_robot(const Config& config, const std::string& port) {
   if (port.starts_with("@"))
     if (const auto ball = config.balls.find(port.substr(1));
@@ -160,11 +174,7 @@ std::optional<spec::Robot> named_robot(const Config& config, const std::string& 
   const auto endpoint = find_endpoint(config, port);
   if (!endpoint || endpoint->scheme != Scheme::Ble || endpoint->name.empty())
     return std::nullopt;
-  const auto* name = spec::find_ble_name(endpoint->name);
-  for (const auto& row : spec::robots)
-    if (name != nullptr && row.ble == name->model && row.robot != spec::Robot::Sphero)
-      return row.robot;
-  return std::nullopt;
+  return robot_called(endpoint->name);
 }
 
 namespace {
@@ -213,11 +223,25 @@ void open_sim(Link& link, spec::Robot robot, const spec::Driving& driving) {
   link.first_seq = sim_first_seq;
   link.ball = std::make_unique<vm::Ball>(ball);
   if (spec::info(robot).packets == spec::Packets::V1) {
+    link.packets = spec::Packets::V1;
     link.transport = std::make_unique<vm::BallTransport>(*link.ball);
     return;
   }
+  link.packets = spec::Packets::V2;
   link.robot = std::make_unique<vm::RobotV2>(*link.ball, robot, vm::bluetooth_address(ball.seed));
   link.transport = std::make_unique<vm::BallTransport>(*link.ball, *link.robot);
+}
+
+/// Which packets were sent, where they were of one kind.
+std::optional<spec::Packets> recorded_packets(const std::vector<protocol::RecordedPiece>& pieces) {
+  bool classic = false;
+  bool newer = false;
+  for (const auto& piece : pieces)
+    if (piece.direction == protocol::Direction::ToBall && !piece.bytes.empty())
+      (piece.bytes.front() == spec::v2_start ? newer : classic) = true;
+  if (classic && newer)
+    return std::nullopt;
+  return newer ? spec::Packets::V2 : spec::Packets::V1;
 }
 
 /// Plays a recording; the session must begin with the sequence number that was recorded.
@@ -229,6 +253,7 @@ tl::expected<void, Failure> open_replay(Link& link, const std::string& path) {
   if (!pieces)
     return failure(ExitCode::NoBall, fmt::format("{}: {}", path, pieces.error()));
   link.first_seq = protocol::first_recorded_seq(*pieces).value_or(0);
+  link.packets = recorded_packets(*pieces);
   link.transport = std::make_unique<protocol::ReplayTransport>(std::move(*pieces));
   return {};
 }
@@ -240,10 +265,14 @@ ExitCode exit_code_of(protocol::LinkError::Kind kind) {
 }
 
 tl::expected<void, Failure> open_real(Link& link, const Endpoint& endpoint,
-                                      const PortOptions& options,
                                       const uploader::OnBleStep& on_step) {
-  auto opened =
-      uploader::open(endpoint, link.budgets, InterruptGuard::asked, on_step, options.accepts);
+  const auto meet = [&link](const uploader::BlePeer& peer) {
+    link.packets = peer.protocol == spec::BleProtocol::V2 ? spec::Packets::V2 : spec::Packets::V1;
+    const auto called = robot_called(peer.name);
+    if (!link.named && called && spec::info(*called).packets == link.packets)
+      link.named = called;
+  };
+  auto opened = uploader::open(endpoint, link.budgets, InterruptGuard::asked, on_step, meet);
   if (!opened)
     return failure(exit_code_of(opened.error().kind), opened.error().message);
   link.first_seq = draw_first_seq();
@@ -258,6 +287,9 @@ tl::expected<Link, Failure> open_link(const Context& context, const PortOptions&
   const auto endpoint = find_endpoint(context.config, options.port);
   if (!endpoint)
     return tl::unexpected(endpoint.error());
+  if (const auto why = uploader::undriven(endpoint->name))
+    return failure(ExitCode::Refused, fmt::format("cannot open {}: {}; `orb ports` lists robots",
+                                                  endpoint->text, *why));
   // Nothing may be done to a ball whose recording then cannot be written.
   std::optional<disk::Draft> recording;
   if (!options.record.empty()) {
@@ -271,6 +303,9 @@ tl::expected<Link, Failure> open_link(const Context& context, const PortOptions&
   link.is_sim = endpoint->scheme == Scheme::Sim;
   link.is_ble = endpoint->scheme == Scheme::Ble;
   link.may_double = may_double(*endpoint);
+  link.is_uart = endpoint->scheme == Scheme::Serial && link.may_double;
+  if (!link.may_double)
+    link.packets = spec::Packets::V1; // classic Bluetooth; the others know better below
   link.named = named_robot(context.config, options.port);
   link.budgets = budgets_for(*endpoint, options);
   tl::expected<void, Failure> opened;
@@ -279,7 +314,7 @@ tl::expected<Link, Failure> open_link(const Context& context, const PortOptions&
   else if (endpoint->scheme == Scheme::Replay)
     opened = open_replay(link, endpoint->path);
   else
-    opened = open_real(link, *endpoint, options, on_step);
+    opened = open_real(link, *endpoint, on_step);
   if (!opened)
     return tl::unexpected(opened.error());
   if (recording || context.verbosity >= 2) {
@@ -287,38 +322,10 @@ tl::expected<Link, Failure> open_link(const Context& context, const PortOptions&
     link.transport =
         std::make_unique<protocol::RecordingTransport>(std::move(link.transport), *link.log);
   }
-  link.transport = std::make_unique<InterruptibleTransport>(std::move(link.transport));
+  auto stopper = std::make_unique<InterruptibleTransport>(std::move(link.transport));
+  link.stopper = stopper.get();
+  link.transport = std::move(stopper);
   return link;
-}
-
-void with_ball(
-    Context& context, const PortOptions& options,
-    const std::function<ExitCode(Link&, uploader::Session&, const uploader::Greeting&)>& work) {
-  const InterruptGuard guard;
-  auto link = open_link(context, options);
-  if (!link)
-    return fail(context, link.error());
-  uploader::Session session(*link->transport, link->budgets, link->first_seq);
-  const auto greeting = uploader::greet(session);
-  if (greeting) {
-    context.exit = work(*link, session, *greeting);
-  } else {
-    fail(context, {exit_code(greeting.error().kind), greeting.error().message});
-  }
-  context.exit = link->finish(context, context.exit);
-}
-
-void with_firmware(
-    Context& context, const PortOptions& options,
-    const std::function<ExitCode(Link&, uploader::Session&, const uploader::Greeting&)>& work) {
-  with_ball(context, options,
-            [&](Link& link, uploader::Session& session, const uploader::Greeting& greeting) {
-              if (const auto refused = refuse_bootloader(greeting, link.name)) {
-                print_error(context, refused->message);
-                return exit_code(refused->kind);
-              }
-              return work(link, session, greeting);
-            });
 }
 
 } // namespace orb::cli

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "cli/context/context.h"
+#include "cli/terminal/interrupt.h"
 #include "disk/disk.h"
 #include "protocol/recording.h"
 #include "run/tether/wire.h"
@@ -31,7 +32,6 @@ struct PortOptions {
   std::string port = "sim:";
   spec::Robot robot = spec::Robot::Sphero; ///< that `sim:` is
   std::optional<spec::Driving> driving;    ///< how that drives; else like `robot`
-  uploader::Accepts accepts = uploader::Accepts::V1;
   std::string record;        ///< a file for the bytes of both directions; empty for none
   std::string answer = "2s"; ///< the wait for one answer
   std::string step = "10s";  ///< the wait for one step to a robot over Bluetooth LE
@@ -76,15 +76,18 @@ private:
 struct Link {
   bool is_sim = false;
   bool is_ble = false;
+  bool is_uart = false;    ///< a serial port that is no Bluetooth
   bool may_double = false; ///< nothing says that it delivers each packet once
   std::string name;        ///< the port, for messages
   uploader::Budgets budgets;
   std::uint8_t first_seq = 0;
   std::unique_ptr<WireLog> log;
-  std::unique_ptr<vm::Ball> ball;     ///< of `sim:`
-  std::unique_ptr<vm::RobotV2> robot; ///< the same, where it speaks packets v2
-  std::optional<spec::Robot> named;   ///< the robot that its name in the URL tells
+  std::unique_ptr<vm::Ball> ball;       ///< of `sim:`
+  std::unique_ptr<vm::RobotV2> robot;   ///< the same, where it speaks packets v2
+  std::optional<spec::Robot> named;     ///< the robot that its name tells
+  std::optional<spec::Packets> packets; ///< that the link tells: one that is classic Bluetooth, say
   std::unique_ptr<protocol::Transport> transport;
+  InterruptibleTransport* stopper = nullptr; ///< the outermost layer of `transport`
 
   /// Puts the recording into its place, if there is one; after a failure beside an older one. The
   /// code to end with: `exit`, where that is a failure already, whatever becomes of the recording.
@@ -107,16 +110,5 @@ std::optional<spec::Robot> named_robot(const Config& config, const std::string& 
 /// steps of Bluetooth LE.
 tl::expected<Link, Failure> open_link(const Context& context, const PortOptions& options,
                                       const uploader::OnBleStep& on_step = {});
-
-/// Opens the link, greets the ball, lets `work` do its job and closes: the shape of the small
-/// commands. Errors are printed; the exit code is left in the context.
-void with_ball(
-    Context& context, const PortOptions& options,
-    const std::function<ExitCode(Link&, uploader::Session&, const uploader::Greeting&)>& work);
-
-/// The same for what only a ball's firmware does: one that is in its bootloader is refused.
-void with_firmware(
-    Context& context, const PortOptions& options,
-    const std::function<ExitCode(Link&, uploader::Session&, const uploader::Greeting&)>& work);
 
 } // namespace orb::cli

@@ -2,6 +2,7 @@
 
 #include "base/refuse.h"
 #include "cli/robot/driven_robot.h"
+#include "cli/robot/reach.h"
 #include "cli/terminal/interrupt.h"
 #include "compiler/lint/lint.h"
 #include "disk/disk.h"
@@ -47,9 +48,10 @@ tl::expected<void, Failure> check_for_robot(const RunOptions& given, const run::
   return {};
 }
 
-tl::expected<run::TetheredEnding, Failure>
-run_on_robot(const Context& context, const RunOptions& given, const run::Options& options,
-             const std::vector<run::Input>& inputs, Console& console, report::Journey* journey) {
+tl::expected<OnRobot, Failure> run_on_robot(const Context& context, const RunOptions& given,
+                                            const run::Options& options,
+                                            const std::vector<run::Input>& inputs, Console& console,
+                                            report::Journey* journey) {
   std::optional<disk::Draft> record;
   if (!given.record.empty()) { // what cannot be written is told before anything moves
     auto draft = disk::Draft::of(given.record);
@@ -67,19 +69,29 @@ run_on_robot(const Context& context, const RunOptions& given, const run::Options
   run::DriveRecording recording;
   if (record)
     robot.tether.recording = &recording;
+  console.outlive_output([&robot] { robot.link.stopper->interrupt(); });
   auto driven =
       run::run_tethered(inputs, options, console, journey, *robot.link.transport, robot.tether);
-  if (!driven || !record)
-    return driven;
+  if (!driven)
+    return tl::unexpected(name_robot(robot.link, given.robot, driven.error()));
+  if (driven->failure)
+    driven->failure = name_robot(robot.link, given.robot, *driven->failure);
+  OnRobot ended{*std::move(driven)};
+  if (given.sleeps)
+    ended.slept = ended.driven.failure && ended.driven.failure->code == ExitCode::LinkLost
+                      ? left_awake()
+                      : put_to_sleep(*robot.link.transport, robot.tether.robot, robot.link);
+  if (!record)
+    return ended;
   record->append(as_bytes(run::to_text(recording)));
-  if (auto written = record->publish(); !written && !driven->failure)
-    driven->failure = Failure{ExitCode::File, written.error().message};
-  return driven;
+  if (auto written = record->publish(); !written && !ended.driven.failure)
+    ended.driven.failure = Failure{ExitCode::File, written.error().message};
+  return ended;
 }
 
-tl::expected<run::TetheredEnding, Failure>
-replay_drive(const RunOptions& given, const run::Options& options,
-             const std::vector<run::Input>& inputs, Console& console, report::Journey* journey) {
+tl::expected<OnRobot, Failure> replay_drive(const RunOptions& given, const run::Options& options,
+                                            const std::vector<run::Input>& inputs, Console& console,
+                                            report::Journey* journey) {
   const auto text = disk::read(given.replay);
   if (!text)
     return tl::unexpected(Failure{ExitCode::File, text.error().message});
@@ -88,7 +100,10 @@ replay_drive(const RunOptions& given, const run::Options& options,
     return tl::unexpected(Failure{ExitCode::BadInput, fmt::format("{} cannot be replayed: {}",
                                                                   disk::display_name(given.replay),
                                                                   recording.error())});
-  return run::run_replayed(inputs, options, console, journey, *recording);
+  auto driven = run::run_replayed(inputs, options, console, journey, *recording);
+  if (!driven)
+    return tl::unexpected(driven.error());
+  return OnRobot{*std::move(driven)};
 }
 
 std::string_view stop_note(const run::Ending& ending) {

@@ -1,11 +1,13 @@
 #pragma once
 
 #include "cli/context/context.h"
+#include "cli/robot/sleep.h"
 #include "cli/run/run_console.h"
 #include "report/journey.h"
 #include "run/input.h"
 #include "run/tether/run_tethered.h"
 
+#include <optional>
 #include <tl/expected.hpp>
 #include <vector>
 
@@ -14,16 +16,22 @@ namespace orb::cli {
 /// Why the command line does not go with a robot: what only a simulation can do.
 tl::expected<void, Failure> check_for_robot(const RunOptions& given, const run::Options& options);
 
+/// A run on a robot, and what became of `--sleep`.
+struct OnRobot {
+  run::TetheredEnding driven;
+  std::optional<Slept> slept{};
+};
+
 /// Runs the program with the robot at `given.port` as its body.
-tl::expected<run::TetheredEnding, Failure>
-run_on_robot(const Context& context, const RunOptions& given, const run::Options& options,
-             const std::vector<run::Input>& inputs, Console& console, report::Journey* journey);
+tl::expected<OnRobot, Failure> run_on_robot(const Context& context, const RunOptions& given,
+                                            const run::Options& options,
+                                            const std::vector<run::Input>& inputs, Console& console,
+                                            report::Journey* journey);
 
 /// Runs the program with the recording `given.replay` in place of a robot.
-tl::expected<run::TetheredEnding, Failure> replay_drive(const RunOptions& given,
-                                                        const run::Options& options,
-                                                        const std::vector<run::Input>& inputs,
-                                                        Console& console, report::Journey* journey);
+tl::expected<OnRobot, Failure> replay_drive(const RunOptions& given, const run::Options& options,
+                                            const std::vector<run::Input>& inputs, Console& console,
+                                            report::Journey* journey);
 
 /// What became of the stop at the end, for people.
 std::string_view stop_note(const run::Ending& ending);

@@ -31,7 +31,7 @@ Console::Console(const RunOptions& options, const std::vector<run::Input>& input
 void Console::on_event(Duration t, const vm::Event& event) {
   if (const auto* print = std::get_if<vm::event::Print>(&event);
       print != nullptr && (!trace_ || !options_.trace_out.empty()))
-    print_out(print->text);
+    this->print(print->text);
   if (const auto* drive = std::get_if<vm::event::Drive>(&event);
       drive != nullptr && drive->roll.speed > 0)
     speeds_ = {std::min(speeds_.slowest, drive->roll.speed),
@@ -80,9 +80,22 @@ tl::expected<void, IoError> Console::finish(const run::Ending& ending) {
                                     : disk::write(options_.trace_out, as_bytes(text_));
 }
 
+void Console::print(std::string_view text) {
+  if (lost_)
+    return;
+  try {
+    print_out(text);
+  } catch (const OutputError& error) {
+    if (!on_lost_)
+      throw;
+    lost_ = error;
+    on_lost_();
+  }
+}
+
 void Console::put(std::string_view text) {
   if (options_.trace_out.empty())
-    print_out(text);
+    print(text);
   else
     text_ += text;
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "base/io_error.h"
+#include "cli/context/output_error.h"
 #include "cli/input/target.h"
 #include "cli/many/roster.h"
 #include "cli/robot/link.h"
@@ -12,6 +13,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -48,6 +50,7 @@ struct RunOptions {
   bool realtime = false;
   bool lenient = false;
   bool watch = false;
+  bool sleeps = false; ///< the robot is put to sleep at the end
   bool open = false;
   bool together = false; ///< each file is a ball of one room
   run::Options run;
@@ -88,7 +91,14 @@ public:
 
   tl::expected<void, IoError> finish(const run::Ending& ending);
 
+  /// Where a robot drives, it has to be stopped before the command ends for want of a reader:
+  /// `on_lost` hears of that, once, and nothing more is printed.
+  void outlive_output(std::function<void()> on_lost) { on_lost_ = std::move(on_lost); }
+  /// What ended the output; nothing where it did not end.
+  const std::optional<OutputError>& lost() const { return lost_; }
+
 private:
+  void print(std::string_view text);
   void put(std::string_view text);
 
   const RunOptions& options_;
@@ -96,6 +106,8 @@ private:
   std::optional<run::Trace> trace_;
   std::string no_number_;
   Told speeds_;
+  std::function<void()> on_lost_;
+  std::optional<OutputError> lost_;
   std::string text_; ///< of a trace that goes to a file, which appears whole at the end
 };
 

@@ -34,11 +34,18 @@ public:
   tl::expected<void, protocol::LinkError> write(ByteView bytes) override;
   tl::expected<Bytes, protocol::LinkError> read(Instant deadline) override;
 
+  /// As if the user had asked to stop, for this link alone.
+  void interrupt() { ++own_; }
+  /// Lets go of what is around it: from now on it is a link that is lost.
+  void close();
+
 private:
+  int asked() const { return InterruptGuard::asked() + own_; }
   bool stop();
 
   std::unique_ptr<protocol::Transport> inner_;
   int seen_ = 0;
+  int own_ = 0;
 };
 
 } // namespace orb::cli

@@ -2,14 +2,46 @@
 #include "uploader/budgets.h"
 
 #include <algorithm>
+#include <chrono>
 
 namespace orb::cli {
 
+namespace {
+
+/// A link that somebody has closed; only its time goes on.
+class Closed final : public protocol::Transport {
+public:
+  explicit Closed(Instant now) : now_(now) {}
+
+  Instant now() const override {
+    return now_ + std::chrono::duration_cast<Duration>(std::chrono::steady_clock::now() - began_);
+  }
+  tl::expected<void, protocol::LinkError> write(ByteView) override {
+    return tl::unexpected(closed());
+  }
+  tl::expected<Bytes, protocol::LinkError> read(Instant) override {
+    return tl::unexpected(closed());
+  }
+
+private:
+  static protocol::LinkError closed() {
+    return {protocol::LinkError::Kind::Closed, "the link is closed"};
+  }
+
+  Instant now_;
+  std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();
+};
+
+} // namespace
+
+void InterruptibleTransport::close() {
+  inner_ = std::make_unique<Closed>(now());
+}
+
 bool InterruptibleTransport::stop() {
-  const int asked = InterruptGuard::asked();
-  if (asked <= seen_)
+  if (asked() <= seen_)
     return false;
-  seen_ = asked;
+  seen_ = asked();
   return true;
 }
 
@@ -19,7 +51,7 @@ tl::expected<void, protocol::LinkError> InterruptibleTransport::write(ByteView b
         protocol::LinkError{protocol::LinkError::Kind::Interrupted, "interrupted"});
   auto written = inner_->write(bytes);
   if (!written && written.error().kind == protocol::LinkError::Kind::Interrupted)
-    seen_ = InterruptGuard::asked(); // it noticed by itself
+    seen_ = asked(); // it noticed by itself
   return written;
 }
 

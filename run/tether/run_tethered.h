@@ -48,8 +48,4 @@ tl::expected<TetheredEnding, Failure> run_replayed(std::span<const Input> inputs
                                                    report::Journey* journey,
                                                    const DriveRecording& recording);
 
-/// Which robot answers, where its name does not tell: of packets v1 or v2 and, of those, which by
-/// the commands that it knows. The failure says what helps.
-tl::expected<spec::Robot, Failure> find_robot(protocol::Transport& transport, Duration patience);
-
 } // namespace orb::run

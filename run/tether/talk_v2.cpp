@@ -5,6 +5,14 @@
 #include <fmt/format.h>
 
 namespace orb::run {
+namespace {
+
+bool is(const protocol::PacketV2& packet, spec::V2Message message) {
+  return packet.seq == spec::v2_message_seq &&
+         (packet.did << 8 | packet.cid) == static_cast<int>(message);
+}
+
+} // namespace
 
 tl::expected<protocol::PacketV2, Failure> TalkV2::ask(spec::V2Command command, Bytes data) {
   constexpr int attempts = 3;
@@ -21,22 +29,36 @@ tl::expected<protocol::PacketV2, Failure> TalkV2::ask(spec::V2Command command, B
         break;
       }
       decoder.feed(*heard);
-      while (auto item = decoder.next())
-        if (item->kind == protocol::ItemV2::Kind::Packet && item->packet.seq == seq_ &&
-            spec::has(item->packet.flags, spec::V2Flag::Response)) {
+      while (auto item = decoder.next()) {
+        if (item->kind != protocol::ItemV2::Kind::Packet)
+          continue;
+        asleep_ = is(item->packet, spec::V2Message::DidSleep);
+        if (item->packet.seq == seq_ && spec::has(item->packet.flags, spec::V2Flag::Response)) {
           seq_ = seq_ >= spec::v2_last_seq ? 0 : static_cast<std::uint8_t>(seq_ + 1);
           return std::move(item->packet);
         }
+      }
     }
     if (!sent && sent.error().kind == protocol::LinkError::Kind::Interrupted)
       return tl::unexpected(Failure{ExitCode::Interrupted, "interrupted"});
     if (!sent)
       return tl::unexpected(Failure{ExitCode::LinkLost, sent.error().message});
   }
-  return tl::unexpected(
-      Failure{ExitCode::LinkLost, fmt::format("the robot does not answer {}; wake it, bring it "
-                                              "closer, or run `orb doctor`",
-                                              spec::info(command).name)});
+  return tl::unexpected(silent(command));
+}
+
+Failure TalkV2::silent(spec::V2Command command) const {
+  const auto name = spec::info(command).name;
+  if (asleep_)
+    return {
+        ExitCode::LinkLost,
+        fmt::format("the robot has gone to sleep and does not answer {}; run the command again, "
+                    "which wakes it, or put it on its charger for a moment (an RVR: press its "
+                    "power button)",
+                    name)};
+  return {ExitCode::LinkLost,
+          fmt::format("the robot does not answer {}; wake it, bring it closer, or run `orb doctor`",
+                      name)};
 }
 
 tl::expected<protocol::PacketV2, Failure> TalkV2::request(spec::V2Command command, Bytes data) {

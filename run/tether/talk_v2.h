@@ -24,9 +24,12 @@ public:
   tl::expected<protocol::PacketV2, Failure> request(spec::V2Command command, Bytes data = {});
 
 private:
+  Failure silent(spec::V2Command command) const;
+
   protocol::Transport& link_;
   const spec::RobotInfo& robot_;
   std::uint8_t seq_ = 0;
+  bool asleep_ = false; ///< it has said so, and nothing since
 };
 
 } // namespace orb::run

@@ -53,6 +53,8 @@ public:
 
   std::string address() const override { return "68:86:E7:00:00:01"; }
 
+  std::string name() const override { return advertised; }
+
   void let_go() override { connected_ = false; }
 
   tl::expected<void, uploader::BleError> write(spec::BleCharacteristic characteristic,
@@ -114,6 +116,7 @@ public:
   }
 
   std::size_t longest_piece = 0;
+  std::string advertised = "SK-0001";
   std::string greeting; ///< the words that were written, with a | after each
   int steps_taken = 0;
 

@@ -1,5 +1,5 @@
 #include "cli/commands/commands.h"
-#include "cli/robot/link.h"
+#include "cli/robot/reach.h"
 #include "protocol/payload.h"
 #include "spec/basic.h"
 

@@ -3,10 +3,11 @@
 #include "cli/commands/robot/ports.h"
 #include "cli/context/config.h"
 #include "cli/context/json.h"
-#include "cli/robot/link.h"
-#include "cli/robot/newer_robot.h"
+#include "cli/robot/reach.h"
 #include "cli/terminal/interrupt.h"
-#include "run/tether/run_tethered.h"
+#include "protocol/packet.h"
+#include "protocol/payload.h"
+#include "run/tether/hail.h"
 #include "uploader/bluez.h"
 #include "uploader/endpoint.h"
 
@@ -41,12 +42,11 @@ void check_computer(const Context& context, Checkup& checkup) {
 }
 
 /// What a robot of packets v2 says of itself.
-tl::expected<void, Failure> check_newer(Checkup& checkup, Link& link,
-                                        const spec::RobotInfo& robot) {
-  run::TalkV2 talk(*link.transport, robot);
+tl::expected<void, Failure> look_at(Checkup& checkup, Link& link, const Newer& newer) {
+  run::TalkV2 talk(*link.transport, newer.robot);
   if (const auto pinged = talk.request(spec::V2Command::Ping); !pinged)
     return tl::unexpected(pinged.error());
-  checkup.good(fmt::format("a {} answers", robot.title));
+  checkup.good(fmt::format("{} answers", with_article(newer.title)));
   const auto answer = talk.ask(spec::V2Command::GetVoltageState);
   if (!answer)
     return tl::unexpected(answer.error());
@@ -62,34 +62,63 @@ tl::expected<void, Failure> check_newer(Checkup& checkup, Link& link,
   return {};
 }
 
-/// Whether a robot of packets v2 answers; then it has been looked at.
-bool is_newer(Checkup& checkup, Link& link) {
-  constexpr Duration patience = 3s;
-  const auto found = run::find_robot(*link.transport, patience);
-  if (found && spec::info(*found).packets == spec::Packets::V2) {
-    if (const auto done = check_newer(checkup, link, spec::info(*found)); !done)
-      checkup.bad("the robot stopped answering", done.error().message);
-    return true;
-  }
-  if (!found && found.error().code == ExitCode::Usage) { // it answers, and several are like it
-    checkup.bad("a newer robot answers but does not say which model it is", found.error().message);
-    return true;
-  }
-  return false;
+/// What is sent comes back: the wires are good.
+void tell_echo(Checkup& checkup) {
+  checkup.bad(
+      "the port echoes: TX and RX are connected together, and the UART itself works",
+      "take the bridge off and connect the RVR: TX of the computer to RX of the robot, RX to "
+      "TX, ground to ground");
+}
+
+/// What helped owners of an RVR whose UART was silent. Source: LIB
+void tell_of_uart(Checkup& checkup) {
+  checkup.bad("on a serial port an RVR may not listen yet",
+              "update it once with the vendor's app: with its first firmware the UART was off");
+  checkup.bad("or its wires are not where they should be",
+              "connect TX to RX, RX to TX and ground to ground");
+  checkup.bad("or the computer keeps the port for itself",
+              "on a Raspberry Pi use `/dev/serial0`, write `enable_uart=1` in config.txt and take "
+              "`console=serial0,115200` out of cmdline.txt, then restart");
+  checkup.bad("or the port itself does not work",
+              "join TX and RX with a wire and run this command again: a port that works echoes");
+}
+
+/// Why nothing answers: what was heard, and what helps where that was nothing at all.
+void tell_silence(Checkup& checkup, Link& link, std::string_view what, std::string_view why) {
+  constexpr Duration patience = 600ms;
+  run::Hail hail(*link.transport);
+  auto heard = hail.write(protocol::encode(protocol::make_command(spec::ApiCommand::Ping, {})));
+  for (const auto until = hail.now() + patience; heard && hail.now() < until && !hail.echoes();)
+    if (const auto read = hail.read(until); !read)
+      heard = tl::unexpected(read.error());
+  if (hail.echoes())
+    return tell_echo(checkup);
+  checkup.bad(what, why);
+  if (link.is_uart && heard)
+    tell_of_uart(checkup);
+}
+
+/// Finds out which robot of packets v2 is there, and looks at it.
+void check_newer(Checkup& checkup, Link& link, std::optional<spec::Robot> told,
+                 std::string_view given) {
+  const auto newer = find_newer(link, told);
+  if (!newer)
+    return checkup.bad("a newer robot answers but does not say which model it is",
+                       newer.error().message);
+  if (const auto done = look_at(checkup, link, *newer); !done)
+    tell_silence(checkup, link, "no robot answers", name_robot(link, given, done.error()).message);
 }
 
 /// Opens the link and greets the ball.
 void check_ball(Context& context, Checkup& checkup, const PortOptions& given,
                 const std::string& robot) {
   const InterruptGuard guard;
-  auto told = false; // why it does not open
-  const auto* newer = newer_robot(context, given, robot);
+  auto explained = false; // why it does not open
   auto options = given;
-  options.accepts = uploader::Accepts::All;
-  if (newer != nullptr)
-    options.robot = newer->robot;
+  if (const auto* row = spec::find_robot(robot))
+    options.robot = row->robot;
   auto link = open_link(context, options, [&](protocol::BleStep, const auto& found) {
-    told = !found;
+    explained = !found;
     if (found)
       checkup.good(*found);
     else if (found.error().failure != uploader::BleFailure::Interrupted)
@@ -98,27 +127,27 @@ void check_ball(Context& context, Checkup& checkup, const PortOptions& given,
   if (!link) {
     if (link.error().code == ExitCode::Interrupted)
       return fail(context, link.error());
-    if (!told)
+    if (!explained)
       checkup.bad("the link cannot be opened", link.error().message);
     return;
   }
   if (!link->is_sim)
     checkup.good(fmt::format("{} can be opened", link->name));
-  if (newer != nullptr) {
-    if (const auto done = check_newer(checkup, *link, *newer); !done)
-      checkup.bad("no robot answers", done.error().message);
-    return;
-  }
-  if (!link->is_sim && is_newer(checkup, *link))
-    return;
-  uploader::Session session(*link->transport, link->budgets, link->first_seq);
+  const auto told = told_robot(*link, robot);
+  if (link->packets == spec::Packets::V2 ||
+      (told && spec::info(*told).packets == spec::Packets::V2))
+    return check_newer(checkup, *link, told, robot);
+  run::Hail hail(*link->transport);
+  uploader::Session session(link->packets ? *link->transport : hail, link->budgets,
+                            link->first_seq);
   const auto greeting = uploader::greet(session);
+  if (hail.answered() == spec::Packets::V2)
+    return check_newer(checkup, *link, std::nullopt, robot);
   if (!greeting) {
     const auto code = exit_code(greeting.error().kind);
     if (code == ExitCode::Interrupted)
       return fail(context, {code, greeting.error().message});
-    checkup.bad("no ball answers", greeting.error().message);
-    return;
+    return tell_silence(checkup, *link, "no ball answers", greeting.error().message);
   }
   checkup.good(link->is_sim ? "the built-in virtual ball answers" : "a ball answers");
   if (const auto noise = session.counts().noise_in; noise > 0)
@@ -182,7 +211,7 @@ void add_doctor(const Command& orb, Context& context) {
   auto options = std::make_shared<PortOptions>();
   add_port_options(command, *options);
   auto robot = std::make_shared<std::string>();
-  add_newer_robot_option(command, *robot);
+  add_robot_option(command, *robot);
   auto format = std::make_shared<std::string>("text");
   add_format_option(command, *format);
   command.callback([&context, options, format, robot, command] {

@@ -1,7 +1,10 @@
 #include "cli/commands/commands.h"
 #include "cli/context/console.h"
 #include "cli/context/json.h"
+#include "cli/context/output_error.h"
 #include "cli/robot/driven_robot.h"
+#include "cli/robot/reach.h"
+#include "cli/robot/sleep.h"
 #include "cli/terminal/browser.h"
 #include "cli/terminal/interrupt.h"
 #include "cli/terminal/keys.h"
@@ -35,6 +38,7 @@ struct DriveOptions {
   PortOptions port;
   std::string robot;
   bool keep_aim = false;
+  bool sleeps = false;
   bool page = false;
   bool open = false;
 };
@@ -224,16 +228,38 @@ private:
   std::unique_ptr<serve::PageServer> page_;
 };
 
+struct Stopped {
+  bool stopped = false;
+  std::unique_ptr<protocol::Transport> link; ///< over which, where the first was lost
+};
+
+/// Stops the robot, over a new link where the first was lost.
+Stopped stop(run::Tether& robot, const tl::expected<void, Failure>& driven,
+             const run::TetherOptions& tether) {
+  Stopped end{robot.finish(), nullptr};
+  if (end.stopped || driven || driven.error().code != ExitCode::LinkLost || !tether.reopen)
+    return end;
+  end.link = tether.reopen();
+  if (end.link != nullptr) {
+    robot.relink(*end.link);
+    end.stopped = robot.finish();
+  }
+  return end;
+}
+
 tl::expected<void, Failure> drive_by_hand(Context& context, const DriveOptions& options) {
   const InterruptGuard guard;
   auto connected = connect_robot(context, options.port, options.robot);
   if (!connected)
     return tl::unexpected(connected.error());
   auto& [link, tether, again] = **connected;
+  const auto named = [&](Failure failure) {
+    return tl::unexpected(name_robot(link, options.robot, std::move(failure)));
+  };
   run::Tether robot(*link.transport, tether.robot, tether.budgets);
   const auto first = robot.begin(options.keep_aim ? run::Aim::Keep : run::Aim::Zero);
   if (!first)
-    return tl::unexpected(first.error());
+    return named(first.error());
   Pilot pilot(robot, *first);
   if (robot.battery())
     pilot.hear({*robot.battery()});
@@ -251,15 +277,33 @@ tl::expected<void, Failure> drive_by_hand(Context& context, const DriveOptions& 
   }
   if (keys.from_terminal())
     print_note(context, key_help());
-  auto driven = session.go(keys);
-  keys.give_back();
-  if (keys.from_terminal())
-    print_out("\n");
-  const bool stopped = robot.finish();
+  std::optional<OutputError> unread; // nobody reads any more
+  tl::expected<void, Failure> driven;
+  try {
+    driven = session.go(keys);
+    keys.give_back();
+    if (keys.from_terminal())
+      print_out("\n");
+  } catch (const OutputError& error) {
+    unread = error;
+  }
+  const auto second = stop(robot, driven, tether);
+  const bool stopped = second.stopped;
   print_note(context, stopped ? run::stop_done : run::stop_lost);
+  if (options.sleeps) {
+    const auto slept = second.link != nullptr || !stopped
+                           ? left_awake()
+                           : put_to_sleep(*link.transport, tether.robot, link);
+    print_note(context, slept.words);
+    context.exit = slept.exit;
+  }
+  if (unread && InterruptGuard::asked() == 0)
+    throw *unread;
+  if (unread)
+    return tl::unexpected(Failure{ExitCode::Interrupted, "interrupted"});
   if (driven && !stopped)
     context.exit = ExitCode::LinkLost;
-  return driven;
+  return driven ? driven : named(driven.error());
 }
 
 } // namespace
@@ -273,6 +317,7 @@ void add_drive(const Command& orb, Context& context) {
   auto options = std::make_shared<DriveOptions>();
   add_robot_port_options(command, options->port, options->robot);
   command.find("--port")->required();
+  add_sleep_option(command, options->sleeps);
   command.add_flag("--no-aim", options->keep_aim, "keep the robot's heading and position");
   command.add_flag("--page", options->page,
                    "serves a page with a joystick and live curves, on this computer only");

@@ -1,6 +1,6 @@
 #include "cli/commands/commands.h"
 #include "cli/model/checks.h"
-#include "cli/robot/link.h"
+#include "cli/robot/reach.h"
 
 #include <fmt/format.h>
 #include <memory>

@@ -3,7 +3,7 @@
 #include "cli/commands/robot/monitor.h"
 #include "cli/context/json.h"
 #include "cli/many/many.h"
-#include "cli/robot/newer_robot.h"
+#include "cli/robot/reach.h"
 #include "cli/terminal/interrupt.h"
 #include "protocol/describe.h"
 #include "protocol/describe_v2.h"
@@ -28,39 +28,38 @@ struct ExecOptions {
   bool monitor = false;
 };
 
+Failure unknown_to(const Newer& newer, const std::string& name) {
+  std::vector<std::string_view> names;
+  for (const auto& one : spec::v2_commands)
+    if (spec::knows(newer.robot, one))
+      names.push_back(one.name);
+  return {ExitCode::Usage, fmt::format("`{}` is not a command of the {}; {}", name, newer.title,
+                                       did_you_mean(name, names, "`orb spec robots` lists them"))};
+}
+
 /// Sends a command of packets v2 and prints the answer. A robot that sleeps is woken for it.
-void execute_v2(Context& context, const ExecOptions& options, const spec::RobotInfo& robot) {
+tl::expected<void, Failure> execute_v2(Context& context, const ExecOptions& options,
+                                       run::TalkV2& talk, const Newer& newer) {
   const auto* row = spec::find_v2_command(options.name);
-  if (row == nullptr) {
-    std::vector<std::string_view> names;
-    for (const auto& one : spec::v2_commands)
-      if (spec::knows(robot, one))
-        names.push_back(one.name);
-    return fail(context,
-                {ExitCode::Usage,
-                 fmt::format("`{}` is not a command of the {}; {}", options.name, robot.title,
-                             did_you_mean(options.name, names, "`orb spec robots` lists them"))});
-  }
+  if (row == nullptr)
+    return tl::unexpected(unknown_to(newer, options.name));
   const auto data = protocol::encode_operands(row->command, options.arguments);
   if (!data)
-    return fail(context, {ExitCode::Usage, data.error()});
-  with_newer_robot(context, options.port, robot,
-                   [&](run::TalkV2& talk) -> tl::expected<void, Failure> {
-                     const auto power = spec::info(spec::V2Command::Wake).did();
-                     if (row->did() > power)
-                       if (const auto awake = talk.request(spec::V2Command::Wake); !awake)
-                         return tl::unexpected(awake.error());
-                     const auto answer = talk.ask(row->command, *data);
-                     if (!answer)
-                       return tl::unexpected(answer.error());
-                     const auto bytes = encode(*answer);
-                     protocol::DecoderV2 decoder;
-                     decoder.feed(bytes);
-                     print_out(protocol::DescriberV2{}.describe(*decoder.next()) + "\n");
-                     if (answer->error != 0)
-                       context.exit = ExitCode::Refused;
-                     return {};
-                   });
+    return tl::unexpected(Failure{ExitCode::Usage, data.error()});
+  const auto power = spec::info(spec::V2Command::Wake).did();
+  if (row->did() > power)
+    if (const auto awake = talk.request(spec::V2Command::Wake); !awake)
+      return tl::unexpected(awake.error());
+  const auto answer = talk.ask(row->command, *data);
+  if (!answer)
+    return tl::unexpected(answer.error());
+  const auto bytes = encode(*answer);
+  protocol::DecoderV2 decoder;
+  decoder.feed(bytes);
+  print_out(protocol::DescriberV2{}.describe(*decoder.next()) + "\n");
+  if (answer->error != 0)
+    context.exit = ExitCode::Refused;
+  return {};
 }
 
 Failure unknown_command(const std::string& name) {
@@ -70,6 +69,15 @@ Failure unknown_command(const std::string& name) {
   return {ExitCode::Usage,
           fmt::format("`{}` is not an API command; {}", name,
                       did_you_mean(name, names, "`orb spec commands` lists them"))};
+}
+
+/// The same where packets v1 are spoken.
+Failure unknown_to_classic(const std::string& name) {
+  if (spec::find_v2_command(name) == nullptr)
+    return unknown_command(name);
+  return {ExitCode::Usage, fmt::format("`{}` is a command of the newer robots, and this is a "
+                                       "classic ball; `orb spec commands` lists what it takes",
+                                       name)};
 }
 
 /// Puts what came as an answer to `command` into words or values.
@@ -157,34 +165,74 @@ ExitCode print_answer(const Context& context, const ExecOptions& options, spec::
   return ExitCode::LinkLost;
 }
 
-void execute(Context& context, const ExecOptions& options) {
-  if (const auto* robot = newer_robot(context, options.port, options.robot))
-    return execute_v2(context, options, *robot);
-  if (spec::find_command(options.name) == nullptr && spec::find_v2_command(options.name) != nullptr)
-    return fail(context, {ExitCode::Usage,
-                          fmt::format("`{}` is a command of the newer robots; say which one "
-                                      "it is, as in `--robot mini`",
-                                      options.name)});
+ExitCode execute_v1(Context& context, const ExecOptions& options, Link& link,
+                    uploader::Session& session) {
+  const auto failed = [&](const Failure& failure) {
+    print_error(context, failure.message);
+    return failure.code;
+  };
   const auto* row = spec::find_command(options.name);
   if (row == nullptr)
-    return fail(context, unknown_command(options.name));
+    return failed(unknown_to_classic(options.name));
   const auto data = protocol::encode_operands(row->command, options.arguments);
   if (!data)
-    return fail(context, {ExitCode::Usage, data.error().message});
-  with_ball(context, options.port,
-            [&](Link& link, uploader::Session& session, const uploader::Greeting&) {
-              const auto answer = request(session, row->command, *data);
-              if (!answer) {
-                print_error(context, answer.error().message);
-                return exit_code(answer.error().kind);
-              }
-              const auto told =
-                  print_answer(context, options, row->command, *data, *answer, session);
-              if (told == ExitCode::Done && options.monitor &&
-                  monitor(context, link, session, {}, options.format).lost)
-                return ExitCode::LinkLost;
-              return told;
-            });
+    return failed({ExitCode::Usage, data.error().message});
+  const auto answer = request(session, row->command, *data);
+  if (!answer)
+    return failed({exit_code(answer.error().kind), answer.error().message});
+  const auto told = print_answer(context, options, row->command, *data, *answer, session);
+  if (told == ExitCode::Done && options.monitor &&
+      monitor(context, link, session, {}, options.format).lost)
+    return ExitCode::LinkLost;
+  return told;
+}
+
+/// What is wrong with the words whichever robot answers, as far as that is known: a mistake is told
+/// before anything is opened.
+tl::expected<void, Failure> check_words(const Context& context, const ExecOptions& options) {
+  const auto* v1 = spec::find_command(options.name);
+  const auto* v2 = spec::find_v2_command(options.name);
+  const auto* given = spec::find_robot(options.robot);
+  auto told = given != nullptr ? std::optional(given->robot)
+                               : named_robot(context.config, options.port.port);
+  if (!told && options.port.port == "sim:")
+    told = options.port.robot;
+  if (told && spec::info(*told).packets == spec::Packets::V1)
+    v2 = nullptr;
+  if (told && spec::info(*told).packets == spec::Packets::V2) {
+    v1 = nullptr;
+    if (v2 == nullptr)
+      return tl::unexpected(unknown_to(newer_of(*told), options.name));
+  }
+  if (v1 == nullptr && v2 == nullptr && options.port.port == "sim:" &&
+      spec::find_v2_command(options.name) != nullptr)
+    return tl::unexpected(
+        Failure{ExitCode::Usage, fmt::format("`{}` is a command of the newer robots; say which one "
+                                             "`sim:` is, as in `--robot mini`",
+                                             options.name)});
+  if (v1 == nullptr && v2 == nullptr)
+    return tl::unexpected(unknown_to_classic(options.name));
+  const auto data_v1 = v1 == nullptr ? tl::expected<Bytes, protocol::EncodeError>()
+                                     : protocol::encode_operands(v1->command, options.arguments);
+  const auto data_v2 = v2 == nullptr ? tl::expected<Bytes, std::string>()
+                                     : protocol::encode_operands(v2->command, options.arguments);
+  if (v2 == nullptr && !data_v1)
+    return tl::unexpected(Failure{ExitCode::Usage, data_v1.error().message});
+  if (v1 == nullptr && !data_v2)
+    return tl::unexpected(Failure{ExitCode::Usage, data_v2.error()});
+  return {};
+}
+
+void execute(Context& context, const ExecOptions& options) {
+  if (const auto good = check_words(context, options); !good)
+    return fail(context, good.error());
+  const auto classic = [&](Link& link, uploader::Session& session, const uploader::Greeting&) {
+    return execute_v1(context, options, link, session);
+  };
+  const auto newer = [&](Link&, run::TalkV2& talk, const Newer& robot) {
+    return execute_v2(context, options, talk, robot);
+  };
+  with_robot(context, options.port, options.robot, {classic, newer});
 }
 
 /// Why the command is not for one of several robots.
@@ -219,7 +267,7 @@ void add_exec(const Command& orb, Context& context) {
   command.add_option("ARGS", options->arguments, "its operands");
   add_roster_options(command, options->roster, links_at_once);
   add_link_options(command, options->port);
-  add_newer_robot_option(command, options->robot);
+  add_robot_option(command, options->robot);
   add_format_option(command, options->format);
   command.add_flag("--monitor", options->monitor, "then print what the ball sends, until Ctrl-C");
   command.callback([&context, options] {

@@ -2,8 +2,7 @@
 #include "cli/commands/commands.h"
 #include "cli/context/json.h"
 #include "cli/many/many.h"
-#include "cli/robot/link.h"
-#include "cli/robot/newer_robot.h"
+#include "cli/robot/reach.h"
 #include "protocol/payload.h"
 #include "protocol/payload_v2.h"
 #include "spec/firmware.h"
@@ -213,8 +212,8 @@ void print_info(std::string_view format, const Json& json, const std::string& te
 }
 
 /// What a robot of packets v2 says of itself, a line or a key each.
-void tell_all_v2(Context& context, const PortOptions& options, const std::string& format,
-                 const spec::RobotInfo& robot) {
+tl::expected<void, Failure> tell_all_v2(const PortOptions& options, const std::string& format,
+                                        run::TalkV2& talk, const Newer& newer) {
   struct Line {
     std::string_view word;
     spec::V2Command command;
@@ -227,54 +226,59 @@ void tell_all_v2(Context& context, const PortOptions& options, const std::string
                             {"battery", spec::V2Command::GetVoltage},
                             {"charge", spec::V2Command::GetPercent},
                             {"power", spec::V2Command::GetVoltageState}};
-  with_newer_robot(context, options, robot, [&](run::TalkV2& talk) -> tl::expected<void, Failure> {
-    Json json{{"schema", "orb.info/1"}, {"port", options.port}, {"robot", robot.name}};
-    auto text = fmt::format("{:<11}{}\n{:<11}{}\n", "port", options.port, "robot", robot.title);
-    for (const auto& line : lines) {
-      if (!spec::knows(robot, spec::info(line.command)))
-        continue;
-      const auto said = told(talk, line.command);
-      if (!said)
-        return tl::unexpected(said.error());
-      if (said->empty())
-        continue;
-      text += fmt::format("{:<11}{}\n", line.word, *said);
-      json[std::string(line.word)] = *said;
-    }
-    text += fmt::format("{:<11}keeps none; `orb run PROGRAM --port {}` drives it from here\n",
-                        "programs", options.port);
-    json["programs"] = false;
-    print_info(format, json, text);
-    return {};
-  });
+  const auto& robot = newer.robot;
+  Json json{{"schema", "orb.info/1"}, {"port", options.port}, {"robot", robot.name}};
+  auto text = fmt::format("{:<11}{}\n{:<11}{}\n", "port", options.port, "robot", newer.title);
+  for (const auto& line : lines) {
+    if (!spec::knows(robot, spec::info(line.command)))
+      continue;
+    const auto said = told(talk, line.command);
+    if (!said)
+      return tl::unexpected(said.error());
+    if (said->empty())
+      continue;
+    text += fmt::format("{:<11}{}\n", line.word, *said);
+    json[std::string(line.word)] = *said;
+  }
+  text += fmt::format("{:<11}keeps none; `orb run PROGRAM --port {}` drives it from here\n",
+                      "programs", options.port);
+  json["programs"] = false;
+  print_info(format, json, text);
+  return {};
+}
+
+ExitCode tell_all_v1(const Context& context, const std::string& format, Link& link,
+                     uploader::Session& session, const uploader::Greeting& greeting) {
+  auto json = info_json(link.name, greeting);
+  auto text = fmt::format("port      {}\n", link.name) + versions_text(link.name, greeting);
+  if (greeting.power)
+    text += power_text(*greeting.power);
+  if (const auto radio = request(session, ApiCommand::GetBluetoothInfo)) {
+    const Fields fields(ApiCommand::GetBluetoothInfo, radio->data);
+    text +=
+        fmt::format("name      {}\naddress   {}\n", fields.text("name"), fields.text("address"));
+    json["name"] = fields.text("name");
+    json["address"] = fields.text("address");
+  } else if (radio.error().kind != uploader::Report::Kind::Refused) {
+    print_error(context, radio.error().message);
+    return exit_code(radio.error().kind);
+  }
+  if (link.is_ble && !greeting.firmware.in_bootloader)
+    ask_for_programs(session, text, json);
+  print_info(format, json, text);
+  return ExitCode::Done;
 }
 
 void tell_all(Context& context, const PortOptions& options, const std::string& format,
               const std::string& robot) {
-  if (const auto* row = newer_robot(context, options, robot))
-    return tell_all_v2(context, options, format, *row);
-  with_ball(context, options,
-            [&](Link& link, uploader::Session& session, const uploader::Greeting& greeting) {
-              auto json = info_json(link.name, greeting);
-              auto text =
-                  fmt::format("port      {}\n", link.name) + versions_text(link.name, greeting);
-              if (greeting.power)
-                text += power_text(*greeting.power);
-              if (const auto radio = request(session, ApiCommand::GetBluetoothInfo)) {
-                const Fields fields(ApiCommand::GetBluetoothInfo, radio->data);
-                text += fmt::format("name      {}\naddress   {}\n", fields.text("name"),
-                                    fields.text("address"));
-                json["name"] = fields.text("name");
-                json["address"] = fields.text("address");
-              } else if (radio.error().kind != uploader::Report::Kind::Refused) {
-                print_error(context, radio.error().message);
-                return exit_code(radio.error().kind);
-              }
-              if (link.is_ble && !greeting.firmware.in_bootloader)
-                ask_for_programs(session, text, json);
-              print_info(format, json, text);
-              return ExitCode::Done;
-            });
+  const auto classic = [&](Link& link, uploader::Session& session,
+                           const uploader::Greeting& greeting) {
+    return tell_all_v1(context, format, link, session, greeting);
+  };
+  const auto newer = [&](Link&, run::TalkV2& talk, const Newer& found) {
+    return tell_all_v2(options, format, talk, found);
+  };
+  with_robot(context, options, robot, {classic, newer});
 }
 
 } // namespace
@@ -295,7 +299,7 @@ void add_info(const Command& orb, Context& context) {
   auto options = std::make_shared<Options>();
   add_roster_options(command, options->roster, links_at_once);
   add_link_options(command, options->port);
-  add_newer_robot_option(command, options->robot);
+  add_robot_option(command, options->robot);
   add_format_option(command, options->format);
   command.callback([&context, options] {
     ManyOptions many;

@@ -2,6 +2,7 @@
 
 #include "base/duration.h"
 #include "cli/commands/commands.h"
+#include "cli/commands/robot/watch_newer.h"
 #include "cli/context/json.h"
 #include "cli/input/inputs.h"
 #include "cli/terminal/interrupt.h"
@@ -173,6 +174,7 @@ namespace {
 
 struct MonitorOptions {
   PortOptions port;
+  std::string robot;
   std::string map;
   std::string format = "text";
   std::string report; ///< a file for what was seen; empty for none
@@ -196,9 +198,14 @@ public:
     return onlooker_ ? ask_all(onlooker_->stream()) : tl::expected<void, Failure>();
   }
   void end() {
-    if (onlooker_)
+    if (onlooker_ && !ended_)
       static_cast<void>(ask_all(onlooker_->silence())); // the link may be gone
+    ended_ = true;
   }
+  /// Also where nobody reads any more.
+  ~Camera() override { end(); }
+  Camera(const Camera&) = delete;
+  Camera& operator=(const Camera&) = delete;
 
   bool takes(const Async& message) override {
     if (!onlooker_)
@@ -232,6 +239,7 @@ private:
   Duration lasts_;
   Instant began_;
   std::optional<run::Onlooker> onlooker_;
+  bool ended_ = false;
 };
 
 /// The report and the drawing of what was seen.
@@ -289,6 +297,14 @@ std::vector<run::Input> read_program(const run::LineMap& map) {
   return inputs && inputs->front().program ? *std::move(inputs) : std::vector<run::Input>();
 }
 
+/// Why there is no page of a robot that keeps no programs.
+Failure draws_nothing(const Newer& robot, std::string_view port) {
+  return {ExitCode::Usage,
+          fmt::format("the robot is {}, which runs no programs by itself; `orb run PROGRAM --port "
+                      "{} --report OUT.html` drives it and shows where it went",
+                      with_article(robot.title), port)};
+}
+
 void listen(Context& context, const MonitorOptions& options) {
   Lookup lookup;
   std::vector<run::Input> inputs;
@@ -306,10 +322,21 @@ void listen(Context& context, const MonitorOptions& options) {
                 {ExitCode::Usage, fmt::format("`--for {}` is not a duration; write it like "
                                               "90s, 500ms or 2min",
                                               options.time)});
-  with_firmware(context, options.port,
-                [&](Link& link, uploader::Session& session, const uploader::Greeting&) {
-                  return watch(context, options, *lasts, lookup, inputs, link, session);
-                });
+  const auto classic = [&](Link& link, uploader::Session& session,
+                           const uploader::Greeting& greeting) {
+    if (const auto refused = refuse_bootloader(greeting, link.name)) {
+      print_error(context, refused->message);
+      return exit_code(refused->kind);
+    }
+    return watch(context, options, *lasts, lookup, inputs, link, session);
+  };
+  const auto newer = [&](Link& link, run::TalkV2&,
+                         const Newer& robot) -> tl::expected<void, Failure> {
+    if (options.draws())
+      return tl::unexpected(draws_nothing(robot, options.port.port));
+    return watch_newer(context, link, robot, *lasts, options.format);
+  };
+  with_robot(context, options.port, options.robot, {classic, newer});
 }
 
 } // namespace
@@ -319,9 +346,11 @@ void add_monitor(const Command& orb, Context& context) {
       orb.add_command("monitor", "print what a ball says: output, errors, markers, collisions",
                       "orb monitor --port /dev/rfcomm0\n"
                       "orb monitor --port @red --map square.json\n"
+                      "orb monitor --port ble://SB-1A2B --for 30s\n"
                       "orb monitor --port @red --report drive.html --for 30s");
   auto options = std::make_shared<MonitorOptions>();
   add_port_options(command, options->port);
+  add_robot_option(command, options->robot);
   add_format_option(command, options->format);
   command
       .add_option("--map", options->map,

@@ -54,6 +54,8 @@ Json describe(const Config& config, const uploader::SeenDevice& device,
     what += ", connected to this computer";
   if (robot != nullptr && robot->protocol == spec::BleProtocol::V2)
     what += ": stores no programs; `orb run PROGRAM --port` drives it from here";
+  if (robot != nullptr && robot->protocol == spec::BleProtocol::None)
+    what += ": orb knows it but cannot drive it";
   Json json{{"url", "ble://" + (by_name ? device.name : device.address)}, {"what", what}};
   if (device.rssi)
     json["rssi"] = *device.rssi;

@@ -7,10 +7,12 @@
 #include "cli/input/target.h"
 #include "cli/many/many.h"
 #include "cli/model/checks.h"
-#include "cli/robot/link.h"
+#include "cli/robot/reach.h"
+#include "cli/robot/sleep.h"
 #include "cli/terminal/interrupt.h"
 #include "cli/terminal/progress_bar.h"
 #include "run/delivery.h"
+#include "run/tether/hail.h"
 #include "spec/limits.h"
 
 #include <fmt/format.h>
@@ -35,6 +37,7 @@ struct UploadOptions {
   bool clear_macros = false;
   bool force = false;
   bool monitor = false;
+  bool sleeps = false;
   bool dry_run = false;
   bool no_check = false;
   int attempts = uploader::Budgets{}.attempts;
@@ -158,10 +161,27 @@ ExitCode finish(const Context& context, const UploadOptions& options, Link& link
     print_note(context, done);
   if (report.uncounted > 0 && link.may_double)
     print_note(context, uncounted_note(report.uncounted));
-  if (!options.monitor)
-    return ExitCode::Done;
-  const auto watched = monitor(context, link, session, lookup);
-  return watched.faulted ? ExitCode::BadInput : watched.lost ? ExitCode::LinkLost : ExitCode::Done;
+  auto exit = ExitCode::Done;
+  if (options.monitor) {
+    const auto watched = monitor(context, link, session, lookup);
+    exit = watched.faulted ? ExitCode::BadInput
+           : watched.lost  ? ExitCode::LinkLost
+                           : ExitCode::Done;
+  }
+  if (!options.sleeps)
+    return exit;
+  const auto slept = exit == ExitCode::LinkLost
+                         ? left_awake()
+                         : put_to_sleep(*link.transport, spec::Robot::Sphero, link);
+  print_note(context, slept.words);
+  return exit == ExitCode::Done ? slept.exit : exit;
+}
+
+/// Why the robot at the other end takes no program.
+ExitCode refuse_newer(const Context& context, const UploadOptions& options, Link& link) {
+  const auto newer = find_newer(link, link.named);
+  const auto why = newer ? stores_nothing(*newer, options.port.port) : newer.error();
+  return fail(context, why.code, why.message);
 }
 
 ExitCode send(const Context& context, const UploadOptions& options,
@@ -174,7 +194,11 @@ ExitCode send(const Context& context, const UploadOptions& options,
   if (!link)
     return fail(context, link.error().code, link.error().message);
   link->budgets.attempts = options.attempts;
-  uploader::Session session(*link->transport, link->budgets, link->first_seq);
+  if (link->packets == spec::Packets::V2)
+    return link->finish(context, refuse_newer(context, options, *link));
+  run::Hail hail(*link->transport);
+  uploader::Session session(link->packets ? *link->transport : hail, link->budgets,
+                            link->first_seq);
   const auto start = session.now();
   const auto battery =
       options.force ? uploader::BatteryPolicy::Ignore : uploader::BatteryPolicy::Refuse;
@@ -185,6 +209,8 @@ ExitCode send(const Context& context, const UploadOptions& options,
     ProgressBar progress(context); // is off the screen before anything is told
     report = deliver(session, delivery, battery, progress);
   }
+  if (hail.answered() == spec::Packets::V2)
+    return link->finish(context, refuse_newer(context, options, *link));
   return link->finish(context, finish(context, options, *link, session, report,
                                       session.now() - start, lookup, row));
 }
@@ -214,6 +240,13 @@ void dry_run(Context& context, UploadOptions& options, const uploader::Delivery&
 }
 
 void upload(Context& context, UploadOptions& options) {
+  if (options.sleeps && options.roster.ports.empty() && options.roster.file.empty())
+    return cli::fail(context, {ExitCode::Usage, "`--sleep` puts a robot to sleep; add `--port`"});
+  if (options.sleeps && options.run && !options.monitor)
+    return cli::fail(context,
+                     {ExitCode::Usage, "`--sleep` would end what `--run` starts; omit one "
+                                       "of them, or add `--monitor`: the robot then sleeps "
+                                       "after Ctrl-C"});
   const auto inputs = load_all(context, options);
   if (!inputs)
     return cli::fail(context, inputs.error());
@@ -287,6 +320,7 @@ void add_upload(const Command& orb, Context& context) {
                    "clear all user macros from the ball first");
   command.add_flag("--force", options->force, "write to flash even if the battery is low");
   command.add_flag("--monitor", options->monitor, "then print what the ball sends, until Ctrl-C");
+  add_sleep_option(command, options->sleeps);
   command.add_flag("--dry-run", options->dry_run,
                    "print the packets and send nothing; with -v, also when it would give up");
   command.add_flag("--no-check", options->no_check, "send it even if it has errors");

@@ -1,3 +1,4 @@
+#include "run/tether/find_robot.h"
 #include "run/tether/hold_robot.h"
 #include "run/tether/run_tethered.h"
 

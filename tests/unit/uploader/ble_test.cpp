@@ -21,13 +21,14 @@ constexpr auto interval = Duration(30ms);
 struct Robot {
   explicit Robot(
       const BleFaultPlan& plan = {}, const Stop& stop = [] { return 0; },
-      Accepts accepts = Accepts::V1) {
+      const std::string& name = "SK-0001") {
     vm::BallOptions options;
     options.loader = compiler::load;
     ball = std::make_unique<vm::Ball>(options);
     auto made = std::make_unique<test::GattBall>(std::make_unique<vm::BallTransport>(*ball), plan,
                                                  interval);
     gatt = made.get();
+    gatt->advertised = name;
     auto opened = open_ble(
         std::move(made), ble_budgets({}), stop,
         [&](BleStep step, const auto& found) {
@@ -35,7 +36,7 @@ struct Robot {
           if (!found)
             error = found.error();
         },
-        accepts);
+        [&](const BlePeer& met) { peer = met; });
     if (opened)
       link = *std::move(opened);
     else
@@ -47,6 +48,7 @@ struct Robot {
   std::unique_ptr<protocol::Transport> link;
   std::vector<BleStep> told;
   std::optional<BleError> error;
+  std::optional<BlePeer> peer;
 };
 
 TEST(Ble, WritesTheWordsOfTheTableInTheirOrderBeforeAnythingElse) {
@@ -61,8 +63,7 @@ TEST(Ble, WritesTheWordsOfTheTableInTheirOrderBeforeAnythingElse) {
 TEST(Ble, ANewerRobotHearsItsOwnWord) {
   BleFaultPlan plan;
   plan.newer = true;
-  const Robot robot(
-      plan, [] { return 0; }, Accepts::All);
+  const Robot robot(plan);
   ASSERT_TRUE(robot.link);
   EXPECT_EQ(robot.gatt->greeting, "usetheforce...band|");
 }
@@ -114,12 +115,25 @@ TEST(Ble, ALinkThatIsAlwaysLostIsGivenUpInTheStepThatLosesIt) {
   }
 }
 
-TEST(Ble, AnsweredByNoCharacteristicItIsTheNewerProtocol) {
-  BleFaultPlan plan;
-  plan.newer = true;
-  const Robot robot(plan);
+TEST(Ble, ItIsToldWhoIsThere) {
+  for (const bool newer : {false, true}) {
+    BleFaultPlan plan;
+    plan.newer = newer;
+    const Robot robot(
+        plan, [] { return 0; }, "SB-1A2B");
+    ASSERT_TRUE(robot.peer);
+    EXPECT_EQ(robot.peer->name, "SB-1A2B");
+    EXPECT_EQ(robot.peer->protocol, newer ? spec::BleProtocol::V2 : spec::BleProtocol::V1);
+  }
+}
+
+TEST(Ble, ARobotThatOrbDoesNotDriveIsNotConnected) {
+  const Robot robot(
+      {}, [] { return 0; }, "LM-1A2B");
   ASSERT_TRUE(robot.error);
-  EXPECT_EQ(robot.error->failure, BleFailure::Newer);
+  EXPECT_EQ(robot.error->failure, BleFailure::Undriven);
+  EXPECT_EQ(robot.told.back(), BleStep::Find);
+  EXPECT_NE(robot.error->seen.find("Lightning McQueen"), std::string::npos);
 }
 
 TEST(Ble, NobodyTriesAgainAfterARequestToStop) {

@@ -1,0 +1,217 @@
+#include "cli/commands/robot/watch_newer.h"
+
+#include "cli/context/json.h"
+#include "run/tether/wire.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace orb::cli {
+namespace {
+
+using protocol::LinkError;
+
+constexpr Duration between_samples = 1s; ///< that are printed
+constexpr Duration between_batteries = 10s;
+
+/// Prints what comes, by name and fields.
+class Print {
+public:
+  explicit Print(std::string_view format) : json_(format == "json") {}
+
+  void sample(const vm::Sample& s) const {
+    const double speed = std::hypot(s.velocity_cm_s.x, s.velocity_cm_s.y);
+    if (json_)
+      return message("sensors", {{"x", rounded(s.place_cm.x)},
+                                 {"y", rounded(s.place_cm.y)},
+                                 {"speed", rounded(speed)},
+                                 {"yaw", rounded(s.yaw_deg)},
+                                 {"pitch", rounded(s.pitch_deg)},
+                                 {"roll", rounded(s.roll_deg)}});
+    print_out(fmt::format("sensors: x {:.0f} cm, y {:.0f} cm, speed {:.0f} cm/s, yaw {:.0f}°, "
+                          "pitch {:.0f}°, roll {:.0f}°\n",
+                          whole(s.place_cm.x), whole(s.place_cm.y), whole(speed), whole(s.yaw_deg),
+                          whole(s.pitch_deg), whole(s.roll_deg)));
+  }
+  void collision(const vm::event::Collision& c) const {
+    if (json_)
+      return message("collision", {{"x", c.x},
+                                   {"y", c.y},
+                                   {"axis", c.axis},
+                                   {"xmag", c.x_magnitude},
+                                   {"ymag", c.y_magnitude},
+                                   {"speed", c.speed}});
+    print_out(fmt::format("collision: x {}, y {}, axis {}, xmag {}, ymag {}, speed {}\n", c.x, c.y,
+                          c.axis, c.x_magnitude, c.y_magnitude, c.speed));
+  }
+  void battery(const vm::stimulus::Battery& b) const {
+    if (json_)
+      return message("battery", {{"volts", b.volts}});
+    print_out(fmt::format("battery: {:.2f} V\n", b.volts));
+  }
+
+private:
+  static double rounded(double value) { return std::round(value * 10) / 10 + 0.0; }
+  /// Without the sign of a zero.
+  static double whole(double value) { return std::round(value) + 0.0; }
+  static void message(std::string_view name, Json fields) {
+    print_json({{"kind", "message"}, {"name", name}, {"fields", std::move(fields)}});
+  }
+
+  bool json_;
+};
+
+class Watch {
+public:
+  Watch(protocol::Transport& link, spec::Robot robot, Print print)
+      : link_(link), wire_(run::make_wire(robot)), print_(print) {}
+
+  tl::expected<void, Failure> begin() {
+    auto asked = ask_all({request(spec::V2Command::Wake)});
+    if (asked)
+      asked = ask_all(collisions(wire_->setup(run::Aim::Keep)));
+    return asked ? ask_all(wire_->stream({})) : asked;
+  }
+  Watch(const Watch&) = delete;
+  Watch& operator=(const Watch&) = delete;
+  /// Silences it, also where nobody reads any more.
+  ~Watch() {
+    static_cast<void>(ask_all(wire_->silence())); // the link may be gone
+    static_cast<void>(ask_all(collisions(wire_->teardown())));
+  }
+  tl::expected<void, Failure> listen(Duration lasts) {
+    const auto until = lasts == Duration{} ? never : now() + lasts;
+    while (now() < until) {
+      if (now() >= battery_at_)
+        if (auto asked = ask_battery(); !asked)
+          return asked;
+      if (auto heard = hear(std::min({until, battery_at_, now() + 1s})); !heard)
+        return heard;
+    }
+    return {};
+  }
+
+private:
+  Instant now() const { return link_.now(); }
+
+  static run::Request request(spec::V2Command command) {
+    const auto& row = spec::info(command);
+    return {row.did(), row.cid(), {}, run::Request::Need::Must};
+  }
+  /// Of what readies a robot for a run, what it needs to tell of collisions: nothing moves.
+  static std::vector<run::Request> collisions(std::vector<run::Request> all) {
+    const auto& row = spec::info(spec::V2Command::CollisionDetection);
+    std::erase_if(
+        all, [&](const run::Request& one) { return one.did != row.did() || one.cid != row.cid(); });
+    return all;
+  }
+
+  tl::expected<void, Failure> ask_all(const std::vector<run::Request>& requests) {
+    for (const auto& one : requests)
+      if (auto answer = ask(one); !answer)
+        return tl::unexpected(answer.error());
+    return {};
+  }
+
+  tl::expected<void, Failure> ask_battery() {
+    battery_at_ = never;
+    const auto request = wire_->ask_battery();
+    if (!request)
+      return {};
+    battery_at_ = now() + between_batteries;
+    const auto answer = ask(*request);
+    if (!answer)
+      return tl::unexpected(answer.error());
+    const auto battery = wire_->read_battery(*answer);
+    if (battery && battery->volts != volts_) {
+      volts_ = battery->volts;
+      print_.battery(*battery);
+    }
+    return {};
+  }
+
+  /// Sends until it is answered; a refusal of what can be done without is no failure.
+  tl::expected<Bytes, Failure> ask(const run::Request& request) {
+    constexpr int attempts = 3;
+    constexpr Duration patience = 700ms;
+    for (int attempt = 0; attempt < attempts; ++attempt) {
+      const auto seq = std::exchange(seq_, wire_->next_seq(seq_));
+      if (const auto sent = link_.write(wire_->encode(request, seq)); !sent)
+        return tl::unexpected(lost(sent.error()));
+      answer_.reset();
+      for (const auto until = now() + patience; now() < until;) {
+        if (auto heard = hear(until); !heard)
+          return tl::unexpected(heard.error());
+        if (!answer_ || answer_->seq != seq)
+          continue;
+        if (answer_->error == 0 || request.need == run::Request::Need::Try)
+          return answer_->error == 0 ? answer_->data : Bytes{};
+        return tl::unexpected(
+            Failure{ExitCode::Refused,
+                    fmt::format("the robot refuses command {:02X}h {:02X}h: {}", request.did,
+                                request.cid, wire_->describe(answer_->error))});
+      }
+    }
+    return tl::unexpected(Failure{ExitCode::LinkLost,
+                                  fmt::format("the robot does not answer command {:02X}h {:02X}h; "
+                                              "wake it, bring it closer, or run `orb doctor`",
+                                              request.did, request.cid)});
+  }
+
+  tl::expected<void, Failure> hear(Instant until) {
+    const auto bytes = link_.read(until);
+    if (!bytes)
+      return tl::unexpected(lost(bytes.error()));
+    wire_->feed(*bytes);
+    while (const auto said = wire_->next()) {
+      if (const auto* answer = std::get_if<run::Said::Answer>(&said->what))
+        answer_ = *answer;
+      else if (const auto* collision = std::get_if<vm::event::Collision>(&said->what))
+        print_.collision(*collision);
+      else if (const auto* sample = std::get_if<vm::Sample>(&said->what);
+               sample != nullptr && now() >= sample_at_) {
+        sample_at_ = now() + between_samples;
+        print_.sample(*sample);
+      }
+    }
+    return {};
+  }
+
+  static Failure lost(const LinkError& error) {
+    if (error.kind == LinkError::Kind::Interrupted || error.kind == LinkError::Kind::Ended)
+      return {ExitCode::Interrupted, "interrupted"};
+    return {ExitCode::LinkLost, error.message};
+  }
+
+  protocol::Transport& link_;
+  std::unique_ptr<run::RobotWire> wire_;
+  Print print_;
+  std::optional<run::Said::Answer> answer_; ///< the last that came
+  std::uint8_t seq_ = 0;
+  Instant sample_at_{}; ///< the next that is printed
+  Instant battery_at_{};
+  double volts_ = 0;
+};
+
+} // namespace
+
+tl::expected<void, Failure> watch_newer(const Context& context, Link& link, const Newer& newer,
+                                        Duration lasts, std::string_view format) {
+  Watch watch(*link.transport, newer.robot.robot, Print(format));
+  auto begun = watch.begin();
+  if (begun) {
+    print_note(context, lasts == Duration{} ? "listening; Ctrl-C to stop" : "listening");
+    constexpr Duration of_sim = 1s; // it stands there, and its time costs nothing
+    begun = watch.listen(link.is_sim && lasts == Duration{} ? of_sim : lasts);
+    if (!begun && begun.error().code == ExitCode::Interrupted)
+      begun = {}; // that is how it ends
+  }
+  return begun;
+}
+
+} // namespace orb::cli
