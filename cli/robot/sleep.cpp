@@ -35,8 +35,8 @@ void add_sleep_option(const Command& command, bool& sleeps) {
 
 Slept put_to_sleep(protocol::Transport& transport, spec::Robot robot, const Link& link) {
   const auto& row = spec::info(robot);
-  const auto told = row.packets == spec::Packets::V2 ? tell_newer(transport, row)
-                                                     : tell_classic(transport, link);
+  const auto told =
+      row.packets == spec::Packets::V2 ? tell_newer(transport, row) : tell_classic(transport, link);
   if (told)
     return {ExitCode::Done, "the robot sleeps; connecting to it, or its charger, wakes it"};
   return {ExitCode::LinkLost,
