@@ -3,7 +3,9 @@
 #include "reference/sections.h"
 #include "spec/robots.h"
 
+#include <bit>
 #include <fmt/format.h>
+#include <limits>
 
 namespace orb::reference {
 namespace {
@@ -45,6 +47,36 @@ std::string robots_with(const spec::V2CommandInfo& command) {
   return out;
 }
 
+/// `lamps 0 to 2 and 4 to 6`
+std::string lamps_of(std::uint32_t mask) {
+  std::string out;
+  for (int lamp = 0; lamp < std::numeric_limits<std::uint32_t>::digits; ++lamp) {
+    if ((mask >> lamp & 1U) == 0)
+      continue;
+    const int first = lamp;
+    while (lamp + 1 < std::numeric_limits<std::uint32_t>::digits && (mask >> (lamp + 1) & 1U) != 0)
+      ++lamp;
+    out += out.empty() ? "lamps " : " and ";
+    out += first == lamp ? std::to_string(first) : fmt::format("{} to {}", first, lamp);
+  }
+  return out.empty() ? "none" : out;
+}
+
+/// What the words of programs set and read on a robot of packets v2.
+void add_words(Entry& entry, const spec::RobotInfo& row) {
+  const bool matrix = spec::knows(row, spec::info(spec::V2Command::MatrixPixel));
+  entry.facts.emplace_back("`RGB` and `LEDC`",
+                           lamps_of(row.body) + (matrix ? ", and the matrix" : ""));
+  entry.facts.emplace_back("`backLED`", std::popcount(row.aiming) > 1
+                                            ? "the blue of " + lamps_of(row.aiming)
+                                            : lamps_of(row.aiming));
+  const auto battery = spec::battery(row.robot);
+  entry.facts.emplace_back("battery", fmt::format("low at {} V, critical at {} V, full at {} V",
+                                                  battery.low, battery.critical, battery.charged));
+  if (const auto wakes = spec::wakes_in(row.robot); wakes.count() > 0)
+    entry.facts.emplace_back("just woken", fmt::format("drops what moves it for {} ms", wakes.count()));
+}
+
 /// Which words of programs mean nothing to the robot.
 std::string lacks_of(spec::Robot robot) {
   std::string out;
@@ -74,6 +106,8 @@ Section robots_section() {
     entry.facts.emplace_back("speed 60", fmt::format("{:.0f} cm/s", spec::speed_cm_s(driving, 60)));
     entry.facts.emplace_back("speed 255",
                              fmt::format("{:.0f} cm/s", spec::speed_cm_s(driving, 255)));
+    if (row.packets == spec::Packets::V2)
+      add_words(entry, row);
     if (const auto lacks = lacks_of(row.robot); !lacks.empty())
       entry.facts.emplace_back("does not have", lacks);
     entry.facts.emplace_back("source", row.source);

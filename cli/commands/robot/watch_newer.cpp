@@ -119,12 +119,8 @@ private:
   }
 
   tl::expected<void, Failure> ask_battery() {
-    battery_at_ = never;
-    const auto request = wire_->ask_battery();
-    if (!request)
-      return {};
     battery_at_ = now() + between_batteries;
-    const auto answer = ask(*request);
+    const auto answer = ask(wire_->ask_battery());
     if (!answer)
       return tl::unexpected(answer.error());
     const auto battery = wire_->read_battery(*answer);
@@ -153,14 +149,14 @@ private:
           return answer_->error == 0 ? answer_->data : Bytes{};
         return tl::unexpected(
             Failure{ExitCode::Refused,
-                    fmt::format("the robot refuses command {:02X}h {:02X}h: {}", request.did,
-                                request.cid, wire_->describe(answer_->error))});
+                    fmt::format("the robot refuses {}: {}", wire_->name_of(request),
+                                wire_->describe(answer_->error))});
       }
     }
     return tl::unexpected(Failure{ExitCode::LinkLost,
-                                  fmt::format("the robot does not answer command {:02X}h {:02X}h; "
-                                              "wake it, bring it closer, or run `orb doctor`",
-                                              request.did, request.cid)});
+                                  fmt::format("the robot does not answer {}; wake it, bring it "
+                                              "closer, or run `orb doctor`",
+                                              wire_->name_of(request))});
   }
 
   tl::expected<void, Failure> hear(Instant until) {
