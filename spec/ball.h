@@ -2,6 +2,7 @@
 
 // The ball itself in numbers. The rows are in spec/ball.def.
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <string_view>
@@ -41,13 +42,14 @@ enum class Axes : unsigned char {
 };
 
 /// So long a dead time can be, in steps of the control system.
-inline constexpr int most_dead_steps = 63;
+inline constexpr int most_dead_steps = 127;
 static_assert(Driving{}.dead_steps <= most_dead_steps);
 
-/// The steady speed at an ordered value, 0 to 255: three straight lines.
+/// The steady speed at an ordered value, 0 to 255: three straight lines. None of them leads
+/// backward: where the second begins below 0, the robot stands still up to there.
 constexpr double speed_cm_s(const Driving& numbers, int ordered) {
   const auto on_line = [&](int value) {
-    return numbers.speed_offset + numbers.speed_slope * value;
+    return std::max(0.0, numbers.speed_offset + numbers.speed_slope * value);
   };
   if (ordered <= ball::slowest_driven)
     return on_line(ball::slowest_driven) * ordered / ball::slowest_driven;

@@ -1,6 +1,7 @@
 #include "run/calibrate/course.h"
 
 #include "base/refuse.h"
+#include "run/calibrate/fit.h"
 #include "vm/body/angles.h"
 #include "vm/body/body.h"
 
@@ -20,14 +21,17 @@ constexpr Duration longest_gap = 300ms;
 constexpr double straight_cm = 50;  ///< about so long is the way before the bend
 constexpr double shortest_s = 0.75; ///< shorter than a tether's repetition of an order
 constexpr double longest_s = 1.5;
-constexpr double fastest_cm_s = 75; ///< that the square has room for
-constexpr int least_range = 20;     ///< of ordered speeds, to tell a line
+constexpr double fastest_cm_s = 75;  ///< that is comfortable in the square
+constexpr double too_fast_cm_s = 95; ///< at the least speed
+constexpr int least_range = 12;      ///< of ordered speeds, to tell a line
 constexpr std::size_t least_seen = 12;
+constexpr std::size_t known_after = 6; ///< legs that tell how fast a robot is
 
 /// How a leg bends: to both sides, and not always at right angles.
 constexpr int bends_deg[] = {90, -90, 120, -60, 60, -120};
-/// In which order the speeds come: far ones follow each other. Sixths of the range.
-constexpr int sixths[] = {6, 0, 3, 5, 1, 4, 2, 6, 3, 0, 4, 6};
+/// In which order the speeds come, in sixths of the range: from slow to fast while nobody knows how
+/// fast that is.
+constexpr int sixths[] = {0, 2, 4, 6, 3, 5, 1, 6, 0, 4, 3, 6};
 
 struct Shape {
   int speed = 0;
@@ -36,22 +40,34 @@ struct Shape {
   Duration straight{};
 };
 
-Shape shape_of(int leg, spec::Robot robot, const Speeds& speeds) {
-  const int share = sixths[static_cast<std::size_t>(leg) % std::size(sixths)];
-  const int speed = speeds.slowest + (speeds.fastest - speeds.slowest) * share / 6;
-  double straight = std::clamp(straight_cm / spec::speed_cm_s(spec::driving(robot), speed),
-                               shortest_s, longest_s);
-  if (straight < shortest_s + 0.2) // an order is repeated 0.8 s after it: no other comes near that
+/// The greatest ordered speed for a robot that drives so.
+int fastest_speed(const spec::Driving& numbers) {
+  int fastest = spec::ball::fastest_driven;
+  while (fastest > spec::ball::slowest_driven + least_range &&
+         spec::speed_cm_s(numbers, fastest) > fastest_cm_s)
+    --fastest;
+  return fastest;
+}
+
+Shape shape_of(std::size_t leg, const spec::Driving& numbers) {
+  constexpr int slowest = spec::ball::slowest_driven;
+  const int share = sixths[leg % std::size(sixths)];
+  const int speed = slowest + (fastest_speed(numbers) - slowest) * share / 6;
+  double straight = straight_cm / std::max(spec::speed_cm_s(numbers, speed), 1.0);
+  straight = std::clamp(straight, shortest_s, longest_s);
+  // The model may guess far too slow a robot, and the order of a leg may be lost: the first ones
+  // are short anyhow. And an order is repeated 0.8 s after it: no other comes near that.
+  if (leg < 3 || straight < shortest_s + 0.2)
     straight = shortest_s;
   // Where it turns slowly enough, it does not slip, and says nothing of its grip.
-  const auto bend = leg % 4 == 0 ? vm::Go::FastTurn : vm::Go::Drive;
-  return {speed, bends_deg[static_cast<std::size_t>(leg) % std::size(bends_deg)], bend,
+  const auto bend = leg % 4 == 1 ? vm::Go::FastTurn : vm::Go::Drive;
+  return {speed, bends_deg[leg % std::size(bends_deg)], bend,
           Duration{static_cast<Duration::rep>(straight * 1e9)}};
 }
 
-/// Where the model's robot goes on a leg toward heading 0, beginning at 0,0.
-std::vector<vm::Point> way_of(const Shape& shape, spec::Robot robot) {
-  vm::Body body(1, spec::driving(robot));
+/// Where the model goes on a leg toward heading 0, beginning at 0,0.
+std::vector<vm::Point> way_of(const Shape& shape, const spec::Driving& numbers) {
+  vm::Body body(1, numbers);
   std::vector<vm::Point> way;
   const auto live = [&](Duration from, Duration until) {
     for (auto at = from; at < until; at += 100ms) {
@@ -101,13 +117,13 @@ int best_heading(std::span<const vm::Point> way, vm::Point place) {
 
 class Course {
 public:
-  Course(HeldRobot& robot, spec::Robot which, const Speeds& speeds)
-      : robot_(robot), which_(which), speeds_(speeds), place_(robot.first().place_cm),
-        middle_(place_) {}
+  Course(HeldRobot& robot, spec::Robot which)
+      : robot_(robot), which_(which), numbers_(spec::driving(which)),
+        place_(robot.first().place_cm), middle_(place_) {}
 
-  tl::expected<Leg, Failure> drive(int number) {
-    const auto shape = shape_of(number, which_, speeds_);
-    const int heading = best_heading(way_of(shape, which_), from_middle());
+  tl::expected<Leg, Failure> drive() {
+    const auto shape = shape_of(told_, numbers_);
+    const int heading = best_heading(way_of(shape, numbers_), from_middle());
     const int bent = (heading + shape.bend_deg + spec::ball::full_circle) % spec::ball::full_circle;
     leg_ = {};
     began_ = robot_.time();
@@ -126,11 +142,31 @@ public:
     if (auto heard = hear(until + to_rest); !heard)
       return tl::unexpected(heard.error());
     leg.broken = leg.broken || leg.seen.size() < least_seen;
+    if (auto learnt = learn(leg); !learnt)
+      return tl::unexpected(learnt.error());
     return leg;
   }
 
 private:
   vm::Point from_middle() const { return {place_.x - middle_.x, place_.y - middle_.y}; }
+
+  /// A leg that tells nothing is driven once more: none is faster before the slow ones have told
+  /// how fast this robot is.
+  tl::expected<void, Failure> learn(const Leg& leg) {
+    if (leg.broken)
+      return {};
+    ++told_;
+    if (first_.size() == known_after)
+      return {};
+    first_.push_back(leg);
+    numbers_ = with_speeds_of(first_, which_);
+    constexpr int slowest = spec::ball::slowest_driven;
+    if (const double speed = spec::speed_cm_s(numbers_, slowest); speed > too_fast_cm_s)
+      return refuse(ExitCode::Refused, fmt::format("this robot is too fast to be measured in 2 m x "
+                                                   "2 m: at speed {} it does {:.0f} cm/s",
+                                                   slowest, speed));
+    return {};
+  }
 
   void give(Order order) {
     order.at = robot_.time() - began_;
@@ -168,7 +204,9 @@ private:
 
   HeldRobot& robot_;
   spec::Robot which_;
-  Speeds speeds_;
+  spec::Driving numbers_;  ///< by which it seems to drive
+  std::size_t told_ = 0;   ///< legs that were of use
+  std::vector<Leg> first_; ///< of those
   vm::Point place_;
   vm::Point middle_;
   Duration began_{};
@@ -177,40 +215,19 @@ private:
 
 } // namespace
 
-tl::expected<Speeds, Failure> course_speeds(spec::Robot robot) {
-  const auto numbers = spec::driving(robot);
-  Speeds speeds{spec::ball::slowest_driven, spec::ball::fastest_driven};
-  while (speeds.fastest > speeds.slowest &&
-         spec::speed_cm_s(numbers, speeds.fastest) > fastest_cm_s)
-    --speeds.fastest;
-  if (speeds.fastest < speeds.slowest + least_range)
-    return refuse(ExitCode::Refused,
-                  fmt::format("a robot as fast as {} cannot be measured in 2 m x "
-                              "2 m: at speed {} it does {:.0f} cm/s",
-                              spec::info(robot).title, speeds.slowest,
-                              spec::speed_cm_s(numbers, speeds.slowest)));
-  return speeds;
-}
-
-Duration course_time(spec::Robot robot) {
-  Duration time{};
-  if (const auto speeds = course_speeds(robot))
-    for (int leg = 0; leg < legs; ++leg)
-      time += to_turn + shape_of(leg, robot, *speeds).straight + to_bend + to_rest;
-  return time;
+Duration course_time() {
+  const Duration straight{static_cast<Duration::rep>(longest_s * 1e9)};
+  return legs * (to_turn + straight + to_bend + to_rest);
 }
 
 tl::expected<std::vector<Leg>, Failure> drive_course(HeldRobot& robot, spec::Robot which,
                                                      const std::function<void(int, int)>& tell) {
-  const auto speeds = course_speeds(which);
-  if (!speeds)
-    return tl::unexpected(speeds.error());
   if (auto goes = robot.go_on({}); !goes)
     return tl::unexpected(goes.error());
-  Course course(robot, which, *speeds);
+  Course course(robot, which);
   std::vector<Leg> driven;
   while (driven.size() < legs) {
-    auto leg = course.drive(static_cast<int>(driven.size()));
+    auto leg = course.drive();
     if (!leg)
       return tl::unexpected(leg.error());
     driven.push_back(*std::move(leg));

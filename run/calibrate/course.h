@@ -36,19 +36,13 @@ struct Leg {
 /// Within this distance of where it stood, along each axis, the robot stays.
 inline constexpr double square_half_cm = 100;
 
-/// The ordered speeds of the course. Fails for robots that are too fast for so small a square.
-struct Speeds {
-  int slowest = 0;
-  int fastest = 0;
-};
-tl::expected<Speeds, Failure> course_speeds(spec::Robot robot);
+/// It takes no longer.
+Duration course_time();
 
-/// About so long it takes.
-Duration course_time(spec::Robot robot);
-
-/// Drives the course. Each leg leads to where the square is free, so that the robot stays in it.
-/// Fails where it leaves the square or runs into something. However it ends, the robot is to be
-/// held then. `tell` hears after each leg how many of how many are done.
+/// Drives the course. Each leg leads to where the square is free, so that the robot stays in it:
+/// the first is slow and short, each later one is as fast and long as those before it allow. Fails
+/// where the robot is too fast for so small a square, leaves it or runs into something. However it
+/// ends, the robot is to be held then. `tell` hears after each leg how many of how many are done.
 tl::expected<std::vector<Leg>, Failure> drive_course(HeldRobot& robot, spec::Robot which,
                                                      const std::function<void(int, int)>& tell);
 

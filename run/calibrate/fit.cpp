@@ -9,7 +9,6 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <unsupported/Eigen/NonLinearOptimization>
-#include <unsupported/Eigen/NumericalDiff>
 #include <vector>
 
 namespace orb::run {
@@ -20,15 +19,37 @@ constexpr std::size_t rows = driving_rows.size();
 using Vector = Eigen::VectorXd;
 using Residuals = std::vector<double>;
 
-Vector as_the_model() {
-  return Vector::Ones(static_cast<Eigen::Index>(rows));
+constexpr double yaw_cm_per_deg = 0.2; ///< what a degree counts beside places
+constexpr double open_share = 0.15;    ///< a greater spread leaves a number open
+/// Of how far the legs lead, left unexplained. Of public drives the model leaves up to 19 %.
+constexpr double misfit_share = 0.3;
+constexpr double misfit_cm = 2;
+constexpr std::size_t least_legs = 6;
+
+Eigen::Index index(std::size_t row) {
+  return static_cast<Eigen::Index>(row);
 }
 
-constexpr double yaw_cm_per_deg = 0.2; ///< what a degree counts beside places
-constexpr double furthest = 3;         ///< times the model's number, or a third of it
-constexpr double open_share = 0.15;    ///< a greater spread leaves a number open
-constexpr double misfit_share = 0.5;   ///< of the error before, left after
-constexpr double misfit_cm = 4;
+Vector each(double value) {
+  return Vector::Constant(index(rows), value);
+}
+
+/// As the search has it, and back. Of the grip it has the reciprocal: 0 where nothing slips.
+double turned(const DrivingRow& row, double value) {
+  return row.place == &spec::Driving::grip ? 1 / value : value;
+}
+
+/// The nearest to `times` the model's number that a profile can say.
+double in_range(const DrivingRow& row, const spec::Driving& model, double times) {
+  const double one = turned(row, value_of(model, row));
+  const auto [least, most] = std::minmax({turned(row, row.least), turned(row, row.most)});
+  return std::clamp(times, least / one, most / one);
+}
+
+/// In the unit of the row.
+double value_at(const DrivingRow& row, const spec::Driving& model, double times) {
+  return turned(row, in_range(row, model, times) * turned(row, value_of(model, row)));
+}
 
 /// Where the model is when the robot was seen.
 void follow(const Leg& leg, const spec::Driving& numbers, std::vector<Seen>& places) {
@@ -82,11 +103,11 @@ Residuals residuals_of(const std::vector<const Leg*>& legs, const spec::Driving&
   numbers = model;
   double steps = 0;
   for (std::size_t row = 0; row < rows; ++row) {
-    const double times = std::clamp(at[static_cast<Eigen::Index>(row)], 1 / furthest, furthest);
+    const double value = value_at(driving_rows[row], model, at[index(row)]);
     if (driving_rows[row].place == nullptr)
-      steps = std::clamp(model.dead_steps * times - 0.5, 0.0, spec::most_dead_steps - 1.0);
+      steps = std::clamp(value / dead_step_ms - 0.5, 0.0, spec::most_dead_steps - 1.0);
     else
-      set_value(numbers, driving_rows[row], value_of(model, driving_rows[row]) * times);
+      set_value(numbers, driving_rows[row], value);
   }
   Residuals below, above;
   for (const auto* leg : legs) {
@@ -101,7 +122,29 @@ Residuals residuals_of(const std::vector<const Leg*>& legs, const spec::Driving&
   return below;
 }
 
-/// The residuals as Eigen asks for them.
+/// How strongly a number is drawn toward the model's: what being off by all of that counts, in cm.
+constexpr double pull_weak = 0.02; ///< decides nothing but what the legs leave open
+constexpr double pull_some = 0.5;  ///< keeps a line of speeds in reach that one leg has told
+constexpr double pull_fast = 1e4;  ///< holds it there
+
+bool is_speed(const DrivingRow& row) {
+  return row.place == &spec::Driving::speed_offset || row.place == &spec::Driving::speed_slope;
+}
+
+/// The others stay the model's.
+Vector speeds_only(double pull) {
+  Vector pulls(index(rows));
+  for (std::size_t row = 0; row < rows; ++row)
+    pulls[index(row)] = is_speed(driving_rows[row]) ? pull : pull_fast;
+  return pulls;
+}
+
+int top_speed(const Leg& leg) {
+  return leg.orders[1].speed;
+}
+
+/// The residuals as Eigen asks for them: those of the legs, then what draws each number toward the
+/// model's, then what drives it back into its range.
 struct Misfit {
   using Scalar = double;
   using InputType = Vector;
@@ -110,56 +153,105 @@ struct Misfit {
   enum { InputsAtCompileTime = Eigen::Dynamic, ValuesAtCompileTime = Eigen::Dynamic };
 
   int inputs() const { return static_cast<int>(rows); }
-  int values() const { return count; }
+  int values() const { return static_cast<int>((*this)(each(1)).size()); }
+
+  Vector operator()(const Vector& at) const {
+    constexpr double edge = 100;
+    auto residuals = residuals_of(*legs, *model, at);
+    for (std::size_t row = 0; row < rows; ++row) {
+      const double times = at[index(row)];
+      residuals.push_back(pull[index(row)] * (times - 1));
+      residuals.push_back(edge * (times - in_range(driving_rows[row], *model, times)));
+    }
+    return Eigen::Map<const Vector>(residuals.data(), index(residuals.size()));
+  }
   int operator()(const Vector& at, Vector& out) const {
-    const auto residuals = residuals_of(*legs, *model, at);
-    out = Eigen::Map<const Vector>(residuals.data(), static_cast<Eigen::Index>(residuals.size()));
+    out = (*this)(at);
+    return 0;
+  }
+  int df(const Vector& at, Eigen::MatrixXd& slopes) const {
+    constexpr double step = 0.02; // of a number: the physics goes in steps, less would be noise
+    for (Eigen::Index row = 0; row < index(rows); ++row) {
+      slopes.col(row).setZero();
+      slopes(slopes.rows() - 2 * index(rows) + 2 * row, row) = pull[row];
+      if (pull[row] == pull_fast)
+        continue;
+      const Vector aside = step * Vector::Unit(index(rows), row);
+      slopes.col(row) = ((*this)(at + aside) - (*this)(at - aside)) / (2 * step);
+    }
     return 0;
   }
 
   const std::vector<const Leg*>* legs;
   const spec::Driving* model;
-  int count;
+  Vector pull;
 };
 
 struct Found {
-  Vector at = as_the_model();
-  Vector spread; ///< as parts of the model's numbers
+  Vector at = each(1);
+  Vector spread;     ///< as parts of the model's numbers
+  double square = 0; ///< of the residuals
+  double noise = 0;  ///< the mean of that
 };
 
-Found lowest(const std::vector<const Leg*>& legs, const spec::Driving& model) {
-  constexpr double step = 0.02; // of a number: the physics goes in steps, less would be noise
-  Found found;
-  const auto count = residuals_of(legs, model, found.at).size();
-  using Differences = Eigen::NumericalDiff<Misfit, Eigen::Central>;
-  Differences misfit(Misfit{&legs, &model, static_cast<int>(count)}, step * step);
-  Eigen::LevenbergMarquardt<Differences> search(misfit);
+Vector lowest(const Misfit& misfit, Vector at) {
+  Misfit copy = misfit; // Eigen wants to change it
+  Eigen::LevenbergMarquardt<Misfit> search(copy);
   constexpr double close = 1e-5;
   search.parameters.ftol = close;
   search.parameters.xtol = close;
   search.parameters.maxfev = 400;
-  search.minimize(found.at);
+  search.minimize(at);
+  return at;
+}
 
-  Eigen::MatrixXd slopes(static_cast<Eigen::Index>(count), static_cast<Eigen::Index>(rows));
-  Vector residuals;
+Found lowest_and_spread(const Misfit& misfit, const Vector& start) {
+  Found found;
+  found.at = lowest(misfit, start);
+  const Vector residuals = misfit(found.at);
+  Eigen::MatrixXd slopes(residuals.size(), index(rows));
   misfit.df(found.at, slopes);
-  misfit(found.at, residuals);
-  const double one =
-      residuals.squaredNorm() / static_cast<double>(std::max(count, rows + 1) - rows);
+  found.square = residuals.squaredNorm();
+  found.noise = found.square / static_cast<double>(residuals.size());
   const Eigen::MatrixXd curve = slopes.transpose() * slopes;
-  found.spread = (curve.completeOrthogonalDecomposition().pseudoInverse().diagonal() * one)
-                     .cwiseAbs()
-                     .cwiseSqrt();
+  found.spread = (curve.inverse().diagonal() * found.noise).cwiseAbs().cwiseSqrt();
   return found;
 }
 
-/// What the places of the legs are off by, root mean square.
-double error_cm(const std::vector<const Leg*>& legs, const spec::Driving& model, const Vector& at) {
-  const auto residuals = residuals_of(legs, model, at);
+/// What the places are off by, root mean square.
+double rms_cm(const Residuals& residuals) {
   double sum = 0;
   for (std::size_t i = 0; i + 2 < residuals.size(); i += 3)
     sum += residuals[i] * residuals[i] + residuals[i + 1] * residuals[i + 1];
   return residuals.empty() ? 0 : std::sqrt(sum * 3 / static_cast<double>(residuals.size()));
+}
+
+double error_cm(const std::vector<const Leg*>& legs, const spec::Driving& model, const Vector& at) {
+  return rms_cm(residuals_of(legs, model, at));
+}
+
+/// What the samples are off by other than by trembling, root mean square: that changes slowly from
+/// one sample to the next (John von Neumann's ratio).
+double steady_cm(const Residuals& residuals) {
+  double all = 0, trembling = 0;
+  for (std::size_t i = 0; i < residuals.size(); ++i) {
+    all += residuals[i] * residuals[i];
+    const double change = i < 3 ? 0 : residuals[i] - residuals[i - 3];
+    trembling += change * change / 2;
+  }
+  return std::sqrt(std::max(0.0, all - trembling) * 3 / static_cast<double>(residuals.size()));
+}
+
+/// How far the legs lead: what a model that stands still is off by.
+double extent_cm(const std::vector<const Leg*>& legs) {
+  spec::Driving still;
+  still.speed_offset = still.speed_slope = 0;
+  Residuals residuals;
+  for (const auto* leg : legs)
+    append_leg(*leg, still, residuals);
+  for (std::size_t yaw = 2; yaw < residuals.size(); yaw += 3)
+    residuals[yaw] = 0;
+  return steady_cm(residuals);
 }
 
 /// Those that the numbers found do not fit much worse than the others: an order may be lost.
@@ -180,70 +272,150 @@ std::vector<const Leg*> fitting(const std::vector<const Leg*>& legs, const spec:
   return kept;
 }
 
-tl::expected<void, Failure> believable(const Calibration& result, const Found& found) {
+std::vector<const Leg*> whole(std::span<const Leg> legs) {
+  std::vector<const Leg*> found;
+  for (const auto& leg : legs)
+    if (!leg.broken)
+      found.push_back(&leg);
+  return found;
+}
+
+/// How far a number is from determined: its spread as a part of it, or of the model's.
+double openness(const Found& found, std::size_t row) {
+  return found.spread[index(row)] / std::max(found.at[index(row)], 1.0);
+}
+
+/// Half the way between the values one spread to both sides, in the unit of the row.
+double spread_of(const Found& found, std::size_t row, const spec::Driving& model) {
+  const double at = found.at[index(row)];
+  const double spread = found.spread[index(row)];
+  const auto& info = driving_rows[row];
+  return std::abs(value_at(info, model, at + spread) - value_at(info, model, at - spread)) / 2;
+}
+
+/// Finds the numbers. Where some are open, the most open one becomes the model's, until none is:
+/// but for one that drives the legs much worse then, such as the grip of a robot that never slips.
+Vector find(const std::vector<const Leg*>& legs, const spec::Driving& model, const Vector& start,
+            Calibration& result) {
+  constexpr double much = 25; // sigmas, squared
+  Misfit misfit{&legs, &model, each(pull_weak)};
+  auto found = lowest_and_spread(misfit, start);
+  std::vector<std::size_t> open;
+  for (std::size_t row = 0; row < rows; ++row) {
+    result.spread[row] = spread_of(found, row, model);
+    if (openness(found, row) > open_share)
+      open.push_back(row);
+  }
+  while (!open.empty()) {
+    const auto worst = std::max_element(open.begin(), open.end(), [&](auto a, auto b) {
+      return openness(found, a) < openness(found, b);
+    });
+    const auto row = *worst;
+    open.erase(worst);
+    if (openness(found, row) <= open_share)
+      break;
+    auto without = misfit;
+    without.pull[index(row)] = pull_fast;
+    auto at = found.at;
+    at[index(row)] = 1;
+    const auto other = lowest_and_spread(without, at);
+    if (other.square > found.square + much * found.noise)
+      continue;
+    result.open[row] = true;
+    misfit = without;
+    found = other;
+    for (std::size_t other_row = 0; other_row < rows; ++other_row)
+      if (!result.open[other_row])
+        result.spread[other_row] = spread_of(found, other_row, model);
+  }
+  return found.at;
+}
+
+/// Why these numbers are none of a robot: one is at the end of its range, give or take its spread.
+/// A robot may follow at once, though, and a floor may be as slippery as it likes.
+std::string nonsense(const Calibration& result) {
   for (std::size_t row = 0; row < rows; ++row) {
     const auto& info = driving_rows[row];
-    const auto at = static_cast<Eigen::Index>(row);
-    if (found.at[at] > 0.99 * furthest || found.at[at] * furthest < 1 / 0.99)
-      return refuse(
-          ExitCode::Refused,
-          fmt::format("`{}` differs by a factor of more than {} from the model's {}: check that "
-                      "`--robot` names this robot, and that nothing is holding it back",
-                      info.name, furthest, value_of(result.before, info)));
-    if (found.spread[at] > open_share * found.at[at])
-      return refuse(ExitCode::Refused,
-                    fmt::format("this drive is not enough to determine `{}`: {:.3g} ± {:.2g}; "
-                                "begin again on a level floor",
-                                info.name, value_of(result.after, info), result.spread[row]));
+    if (result.open[row] || info.place == &spec::Driving::grip)
+      continue;
+    const double value = value_of(result.after, info);
+    const double spread = std::max(result.spread[row], 1e-6);
+    const bool may_vanish = info.place == nullptr || info.place == &spec::Driving::speed_lag;
+    if ((value - spread < info.least && !may_vanish) || value + spread > info.most)
+      return fmt::format(
+          "no robot has a `{}` of {:.4g}; check that `--robot` names this robot, and "
+          "begin again",
+          info.name, value);
   }
-  if (result.error_after_cm > misfit_cm &&
-      result.error_after_cm > misfit_share * result.error_before_cm)
-    return refuse(
-        ExitCode::Refused,
-        fmt::format(
-            "the model does not fit this robot: position error {:.1f} cm before, {:.1f} cm after",
-            result.error_before_cm, result.error_after_cm));
   return {};
+}
+
+/// Why the numbers tell nothing of a robot; empty where they do. `misfit` of `extent`, both in cm,
+/// is not explained.
+std::string doubt(const Calibration& result, std::size_t whole, double misfit, double extent) {
+  constexpr double least_extent_cm = 1;
+  if (whole < least_legs)
+    return fmt::format("only {} of {} legs are usable; the link lost the others; move closer to "
+                       "the robot and try again",
+                       whole, result.legs);
+  if (extent < least_extent_cm)
+    return "the robot hardly moved; check that nothing is holding it back, and begin again";
+  if (misfit > misfit_cm && misfit > misfit_share * extent)
+    return fmt::format("the model does not fit this drive: it leaves {:.1f} cm of {:.1f} cm "
+                       "unexplained; check that the floor is level and not slippery and that "
+                       "`--robot` names this robot, and begin again",
+                       misfit, extent);
+  if (4 * result.used < 3 * whole)
+    return fmt::format("the model fits only {} of {} legs; check that the floor is level and the "
+                       "same everywhere, and begin again",
+                       result.used, whole);
+  return nonsense(result);
 }
 
 } // namespace
 
 tl::expected<Calibration, Failure> fit(std::span<const Leg> legs, spec::Robot robot) {
   const auto model = spec::driving(robot);
-  std::vector<const Leg*> used;
-  for (const auto& leg : legs)
-    if (!leg.broken)
-      used.push_back(&leg);
-  const auto enough = [&] { return 4 * used.size() >= 3 * legs.size() && !used.empty(); };
-  const auto too_few = [&] {
-    return refuse(ExitCode::Refused, fmt::format("only {} of {} legs are usable; the link lost the "
-                                                 "others; move closer to the robot and try again",
-                                                 used.size(), legs.size()));
-  };
-  if (!enough())
-    return too_few();
-  auto found = lowest(used, model);
-  if (const auto kept = fitting(used, model, found.at); kept.size() < used.size()) {
-    used = kept;
-    if (!enough())
-      return too_few();
-    found = lowest(used, model);
-  }
+  auto used = whole(legs);
   Calibration result;
-  result.before = result.after = model;
   result.legs = legs.size();
+  if (used.empty())
+    return refuse(ExitCode::Refused, doubt(result, 0, 0, 0));
+  const auto whole = used.size();
+  // The speeds first: where those are far off, nothing else can be told.
+  Vector at = lowest({&used, &model, speeds_only(pull_some)}, each(1));
+  at = lowest({&used, &model, each(pull_weak)}, at);
+  used = fitting(used, model, at);
+  at = find(used, model, at, result);
+
+  result.before = result.after = model;
   result.used = used.size();
-  for (std::size_t row = 0; row < rows; ++row) {
-    const double value = value_of(model, driving_rows[row]);
-    const auto at = static_cast<Eigen::Index>(row);
-    set_value(result.after, driving_rows[row], value * found.at[at]);
-    result.spread[row] = value * found.spread[at];
-  }
-  result.error_before_cm = error_cm(used, model, as_the_model());
-  result.error_after_cm = error_cm(used, model, found.at);
-  if (auto good = believable(result, found); !good)
-    return tl::unexpected(good.error());
+  for (std::size_t row = 0; row < rows; ++row)
+    set_value(result.after, driving_rows[row], value_at(driving_rows[row], model, at[index(row)]));
+  result.error_before_cm = error_cm(used, model, each(1));
+  result.error_after_cm = error_cm(used, model, at);
+  const auto by_speed = [](const Leg* a, const Leg* b) { return top_speed(*a) < top_speed(*b); };
+  const auto [slow, fast] = std::minmax_element(used.begin(), used.end(), by_speed);
+  result.slowest = top_speed(**slow);
+  result.fastest = top_speed(**fast);
+  result.doubt = doubt(result, whole, steady_cm(residuals_of(used, model, at)), extent_cm(used));
   return result;
+}
+
+spec::Driving with_speeds_of(std::span<const Leg> legs, spec::Robot robot) {
+  auto numbers = spec::driving(robot);
+  const auto model = numbers;
+  auto used = whole(legs);
+  const auto search = [&] { return lowest({&used, &model, speeds_only(pull_some)}, each(1)); };
+  auto at = search();
+  if (const auto kept = fitting(used, model, at); kept.size() < used.size()) {
+    used = kept;
+    at = search();
+  }
+  for (std::size_t row = 0; row < rows; ++row)
+    if (is_speed(driving_rows[row]))
+      set_value(numbers, driving_rows[row], value_at(driving_rows[row], model, at[index(row)]));
+  return numbers;
 }
 
 } // namespace orb::run

@@ -11,8 +11,6 @@
 namespace orb::run {
 namespace {
 
-constexpr double step_ms = 1000.0 / spec::ball::control_rate;
-
 struct Line {
   std::size_t number = 0;
   std::string_view key;
@@ -99,12 +97,12 @@ std::string row_line(const spec::Driving& numbers, const DrivingRow& row) {
 } // namespace
 
 double value_of(const spec::Driving& numbers, const DrivingRow& row) {
-  return row.place == nullptr ? numbers.dead_steps * step_ms : numbers.*row.place;
+  return row.place == nullptr ? numbers.dead_steps * dead_step_ms : numbers.*row.place;
 }
 
 void set_value(spec::Driving& numbers, const DrivingRow& row, double value) {
   if (row.place == nullptr)
-    numbers.dead_steps = static_cast<int>(std::lround(value / step_ms));
+    numbers.dead_steps = static_cast<int>(std::lround(value / dead_step_ms));
   else
     numbers.*row.place = value;
 }

@@ -12,6 +12,8 @@
 
 namespace orb::run {
 
+inline constexpr double dead_step_ms = 1000.0 / spec::ball::control_rate;
+
 /// A number of spec::Driving that a drive can tell.
 struct DrivingRow {
   std::string_view name; ///< of the row in spec/ball.def
@@ -22,10 +24,10 @@ struct DrivingRow {
 };
 
 inline constexpr auto driving_rows = std::to_array<DrivingRow>({
-    {"speed_offset", "cm/s", 0.1, 500, &spec::Driving::speed_offset},
+    {"speed_offset", "cm/s", -100, 500, &spec::Driving::speed_offset},
     {"speed_slope", "cm/s", 0.01, 20, &spec::Driving::speed_slope},
     {"speed_lag", "s", 0.01, 5, &spec::Driving::speed_lag},
-    {"dead_time", "ms", 1, 150, nullptr},
+    {"dead_time", "ms", 0, spec::most_dead_steps* dead_step_ms, nullptr},
     {"grip", "cm/s2", 5, 5000, &spec::Driving::grip},
     {"turn_gain", "", 0.1, 20, &spec::Driving::turn_gain},
 });

@@ -27,28 +27,29 @@ struct CalibrateOptions {
 
 /// Says what will happen, and waits for Enter.
 tl::expected<void, Failure> ask(spec::Robot robot) {
-  const auto time = std::chrono::round<std::chrono::seconds>(run::course_time(robot)).count();
-  print_err(fmt::format("the {} will drive by itself for about {} s, within 2 m x 2 m\n"
+  const auto time = std::chrono::round<std::chrono::seconds>(run::course_time()).count();
+  print_err(fmt::format("the {} will drive by itself for up to {} s, within 2 m x 2 m\n"
                         "  put it in the middle of a clear, level floor, facing along one side\n",
                         spec::info(robot).title, time));
   return await_enter("`--yes` confirms that the floor is clear");
 }
 
-void print_result(const run::Calibration& found, const run::Speeds& speeds) {
+void print_result(const run::Calibration& found) {
   print_out(fmt::format("{:<13}{:>9}{:>12}\n", "", "model", "this one"));
   for (std::size_t row = 0; row < run::driving_rows.size(); ++row) {
     const auto& info = run::driving_rows[row];
     const auto spread = fmt::format("{:.2g}", found.spread[row]);
-    print_out(fmt::format("{:<13}{:>9.4g}{:>12.4g} ± {}\n", info.name,
+    print_out(fmt::format("{:<13}{:>9.4g}{:>12.4g} ± {}{}\n", info.name,
                           run::value_of(found.before, info), run::value_of(found.after, info),
-                          info.unit.empty() ? spread : fmt::format("{:<7} {}", spread, info.unit)));
+                          info.unit.empty() ? spread : fmt::format("{:<7} {}", spread, info.unit),
+                          found.open[row] ? "  not determined: this is the model's" : ""));
   }
   print_out(fmt::format(
       "position error {:.1f} cm with the model, {:.1f} cm with these numbers, over {} of {} legs\n",
       found.error_before_cm, found.error_after_cm, found.used, found.legs));
   print_out(fmt::format(
       "not measured: speeds below {} and above {}; for those the model's guess is kept\n",
-      speeds.slowest, speeds.fastest));
+      found.slowest, found.fastest));
 }
 
 tl::expected<void, Failure> save_profile(const Context& context, const std::string& name,
@@ -110,9 +111,6 @@ tl::expected<void, Failure> calibrate(Context& context, CalibrateOptions options
   if (!connected)
     return tl::unexpected(connected.error());
   const auto robot = (*connected)->tether.robot;
-  const auto speeds = run::course_speeds(robot);
-  if (!speeds)
-    return tl::unexpected(speeds.error());
   if (!options.yes)
     if (auto asked = ask(robot); !asked)
       return asked;
@@ -122,11 +120,13 @@ tl::expected<void, Failure> calibrate(Context& context, CalibrateOptions options
   const auto found = run::fit(*legs, robot);
   if (!found)
     return tl::unexpected(found.error());
-  print_result(*found, *speeds);
+  print_result(*found);
+  if (!found->doubt.empty())
+    return refuse(ExitCode::Refused, found->doubt);
   if (options.output.empty())
     return {};
   return save_profile(context, options.output,
-                      {robot, found->after, speeds->slowest, speeds->fastest});
+                      {robot, found->after, found->slowest, found->fastest});
 }
 
 } // namespace
