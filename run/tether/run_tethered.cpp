@@ -88,6 +88,7 @@ tl::expected<TetheredEnding, Failure> run_tethered(std::span<const Input> inputs
   auto options = given;
   options.robot = &witness;
   options.robot_sample = *first;
+  options.model = tether.robot;
   const auto live = Live::start(inputs, options, tap, journey);
   if (!live) {
     robot.finish();
@@ -173,6 +174,7 @@ tl::expected<TetheredEnding, Failure> run_replayed(std::span<const Input> inputs
   auto options = given;
   options.robot = &witness;
   options.robot_sample = recording.first;
+  options.model = recording.robot;
   const auto live = Live::start(inputs, options, tap, journey);
   if (!live)
     return tl::unexpected(live.error());
