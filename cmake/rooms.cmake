@@ -18,7 +18,7 @@ orb_library(vm         PUBLIC orb::protocol orb::bytecode)
 orb_library(uploader   PUBLIC orb::protocol PRIVATE ${links})
 orb_library(report     PUBLIC orb::vm PRIVATE ${json} pugixml::pugixml)
 orb_page(report        report/page
-  dom journey playback heading readings map_chart map_ground map_marks map_path map
+  dom journey playback heading matrix readings map_chart map_ground map_marks map_path map
   source variables events lists lanes transport paper keys player report)
 orb_library(run        PUBLIC orb::report orb::structured orb::uploader PRIVATE ${json})
 orb_library(testing    PUBLIC orb::run PRIVATE ${json} PkgConfig::PCRE2 Threads::Threads)

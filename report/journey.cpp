@@ -11,6 +11,7 @@ namespace {
 constexpr std::size_t pose_capacity = 8000;
 constexpr std::size_t led_capacity = 6000;
 constexpr std::size_t back_led_capacity = 2000;
+constexpr std::size_t picture_capacity = 500; // of 400 bytes each
 constexpr std::size_t place_capacity = 12000;
 constexpr std::size_t variables_capacity = 12000; // of all variables together
 constexpr std::size_t least_variable_capacity = 100;
@@ -27,7 +28,7 @@ std::int32_t rounded(double value) {
 
 Journey::Journey()
     : poses_(pose_capacity), led_(led_capacity), back_led_(back_led_capacity),
-      places_(place_capacity), sensors_(sensor_capacity) {}
+      pictures_(picture_capacity), places_(place_capacity), sensors_(sensor_capacity) {}
 
 int Journey::add_file(std::string name, std::string text) {
   files_.push_back({std::move(name), std::move(text), {}});
@@ -106,6 +107,10 @@ void Journey::see(Duration t, const vm::event::Led& seen) {
 
 void Journey::see(Duration t, const vm::event::BackLed& seen) {
   back_led_.push(t, seen.value);
+}
+
+void Journey::see(Duration t, const vm::event::Matrix& seen) {
+  pictures_.push(t, seen.pixels);
 }
 
 void Journey::see(Duration t, const vm::event::Position& seen) {
@@ -214,7 +219,7 @@ Journey::Listed Journey::listed() const {
 bool Journey::thinned() const {
   return poses_.quantum() > Duration{} || led_.quantum() > Duration{} ||
          places_.quantum() > Duration{} || sensors_.quantum() > Duration{} ||
-         back_led_.quantum() > Duration{} ||
+         back_led_.quantum() > Duration{} || pictures_.quantum() > Duration{} ||
          std::any_of(variables_.begin(), variables_.end(),
                      [](const Variable& one) { return one.values.quantum() > Duration{}; });
 }

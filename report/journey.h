@@ -2,6 +2,8 @@
 
 #include "base/time.h"
 #include "report/course.h"
+#include "spec/robots.h"
+#include "vm/matrix.h"
 #include "vm/observer.h"
 
 #include <array>
@@ -137,6 +139,9 @@ public:
   /// What the ball drives through; its walls come before those that were added.
   void set_course(Course course);
 
+  /// Which robot it is: whether its page has a matrix.
+  void set_robot(spec::Robot robot) { robot_ = robot; }
+
   // During the run: `t` counts from the start of the program.
   void add(Duration t, const vm::Event& event);
   /// A line that has ended left `value` in the variable of that index.
@@ -156,6 +161,9 @@ public:
   const Series<vm::Pose>& poses() const { return poses_; }
   const Series<vm::Color>& led() const { return led_; }
   const Series<int>& back_led() const { return back_led_; }
+  spec::Robot robot() const { return robot_; }
+  /// What the matrix showed besides the colours of led(): the newer of both shows.
+  const Series<vm::Matrix::Pixels>& pictures() const { return pictures_; }
   const Series<Place>& places() const { return places_; }
   const std::vector<Variable>& variables() const { return variables_; }
   const Series<Sensors>& sensors() const { return sensors_; }
@@ -175,6 +183,7 @@ private:
   void see(Duration t, const vm::event::Error& seen);
   void see(Duration t, const vm::event::Led& seen);
   void see(Duration t, const vm::event::BackLed& seen);
+  void see(Duration t, const vm::event::Matrix& seen);
   void see(Duration, const vm::event::Drive&) {} // what it leads to is seen in the poses
   void see(Duration t, const vm::event::Position& seen);
   void see(Duration t, const vm::event::Marker& seen);
@@ -204,6 +213,8 @@ private:
   Series<vm::Pose> poses_;
   Series<vm::Color> led_;
   Series<int> back_led_;
+  spec::Robot robot_ = spec::Robot::Sphero;
+  Series<vm::Matrix::Pixels> pictures_;
   Series<Place> places_;
   std::vector<Variable> variables_;
   Series<Sensors> sensors_;

@@ -4,6 +4,7 @@
 #include "report/assets.h"
 #include "spec/basic.h"
 #include "spec/macro.h"
+#include "vm/matrix.h"
 
 #include <algorithm>
 #include <array>
@@ -93,6 +94,12 @@ ordered_json lamps(const Journey& journey) {
   const auto& entries = journey.led().entries();
   return {{"t", times(entries)},
           {"rgb", plain(entries, [](const auto& entry) { return rgb(entry.value); })}};
+}
+
+ordered_json pictures(const Journey& journey) {
+  const auto& entries = journey.pictures().entries();
+  return {{"t", times(entries)},
+          {"pixels", plain(entries, [](const auto& entry) { return vm::hex_of(entry.value); })}};
 }
 
 ordered_json places(const Journey& journey) {
@@ -342,6 +349,8 @@ ordered_json run_data(const Journey& journey, std::string_view title,
                        {"variables", variables(journey)},
                        {"sensors", sensors(journey)},
                        {"events", happenings(listed)}};
+  if (vm::has_matrix(journey.robot()))
+    data["matrix"] = pictures(journey);
   if (journey.course())
     data["course"] = course(*journey.course());
   return data;
@@ -438,6 +447,10 @@ std::string growth_json(const Journey& journey, Shown& shown) {
       {"line", new_places(tell(since(journey.places(), until)))},
       {"events", new_happenings(journey, shown.happenings)},
       {"totals", totals(journey)}};
+  if (const auto fresh = tell(since(journey.pictures(), until)); !fresh.empty())
+    data["matrix"] = {{"t", plain_times(fresh)}, {"pixels", plain(fresh, [](const auto& entry) {
+                                                    return vm::hex_of(entry.value);
+                                                  })}};
   return script_safe(data);
 }
 

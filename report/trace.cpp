@@ -1,5 +1,7 @@
 #include "report/trace.h"
 
+#include "vm/matrix.h"
+
 #include <algorithm>
 #include <array>
 #include <fmt/format.h>
@@ -141,6 +143,11 @@ std::string trace_line(TraceFormat format, Duration t, const vm::Event& event) {
           },
           [&](const e::BackLed& x) {
             return line("backled", {{"value", n(x.value)}});
+          },
+          [&](const e::Matrix& x) {
+            // A column of its own would change every trace of robots that have none.
+            const std::string_view key = format == TraceFormat::Csv ? "text" : "pixels";
+            return line("matrix", {{key, vm::hex_of(x.pixels)}});
           },
           [&](const e::Drive& x) {
             return line("drive", {{"heading", n(x.roll.heading_deg)},

@@ -191,6 +191,7 @@ Failure refusal(const Load& load, const Options& options) {
 }
 
 void describe(std::span<const Input> inputs, const Options& options, report::Journey& journey) {
+  journey.set_robot(options.model);
   // Programs before macros, which they may bring with them: a page opens on the first file.
   std::vector<const Input*> ordered;
   for (const auto& input : inputs)

@@ -18,6 +18,7 @@
 #include "vm/settings.h"
 #include "vm/stimulus.h"
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -122,6 +123,9 @@ public:
   void drive(const Motion& motion) { drive(Actor::Client, motion); }
   /// The application colour; it is also what cmdrgb tells programs.
   void set_led(Color color) { set_led(Actor::Client, color); }
+  /// Its matrix of lamps shows this picture from now on: observers are told, each time. The ball
+  /// itself has no use for it.
+  void show_matrix(const std::array<Color, 64>& pixels);
   void change(const Settings& settings);
   Outcome erase_basic(Area area) { return programs_.erase(area); }
   Outcome append_basic(Area area, ByteView text) { return programs_.append(area, text); }

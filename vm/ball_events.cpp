@@ -196,6 +196,10 @@ void Ball::show_lamps() {
     trace(event::BackLed{*level});
 }
 
+void Ball::show_matrix(const std::array<Color, 64>& pixels) {
+  trace(event::Matrix{pixels});
+}
+
 // Sleep.
 
 bool Ball::keeps_awake() const {

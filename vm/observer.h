@@ -4,6 +4,7 @@
 #include "spec/basic.h"
 #include "vm/body/body.h"
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -30,6 +31,10 @@ struct Led {
 };
 struct BackLed {
   int value = 0;
+};
+/// The matrix of lamps shows this picture; of a colour that fills it Led tells.
+struct Matrix {
+  std::array<Color, 64> pixels{}; ///< row by row from the bottom left, as vm::Matrix has them
 };
 /// A drive command was obeyed.
 struct Drive {
@@ -102,10 +107,10 @@ struct StopLost {};
 
 } // namespace event
 
-using Event =
-    std::variant<event::Print, event::Error, event::Led, event::BackLed, event::Drive,
-                 event::Position, event::Marker, event::Macro, event::Line, event::Collision,
-                 event::Sleep, event::End, event::MacroEnd, event::Bump, event::StopLost>;
+using Event = std::variant<event::Print, event::Error, event::Led, event::BackLed, event::Drive,
+                           event::Position, event::Marker, event::Macro, event::Line,
+                           event::Collision, event::Sleep, event::End, event::MacroEnd, event::Bump,
+                           event::StopLost, event::Matrix>;
 
 /// `ran into the wall x=70`, `met ball blue`.
 inline std::string words_of(const event::Bump& bump) {

@@ -57,6 +57,10 @@ bool values_fit(V2Command command, ByteView data) {
   return true;
 }
 
+Color color_at(ByteView data, std::size_t at) {
+  return {data[at], data[at + 1], data[at + 2]};
+}
+
 void append_text(Bytes& out, std::string_view text) {
   const auto bytes = as_bytes(text);
   out.insert(out.end(), bytes.begin(), bytes.end());
@@ -236,8 +240,14 @@ V2Error RobotV2::perform(V2Command command, const PacketV2& request, Bytes& answ
   case V2Command::ScreenFace:
   case V2Command::ScreenRotation:
   case V2Command::ScreenPicture: break; // it has no screen to show them on
-  case V2Command::ScreenColor: ball_.set_led({data[0], data[1], data[2]}); break;
-  case V2Command::ScreenClear: ball_.set_led({}); break;
+  case V2Command::ScreenColor:
+    ball_.set_led(color_at(data, 0));
+    matrix_.fill(color_at(data, 0));
+    break;
+  case V2Command::ScreenClear:
+    ball_.set_led({});
+    matrix_.clear();
+    break;
   case V2Command::RawMotors: return set_motors(data);
   case V2Command::ResetYaw: ball_.drive(SetHeading{0}); break;
   case V2Command::DriveWithHeading: drive(data); break;
@@ -326,25 +336,53 @@ V2Error RobotV2::perform(V2Command command, const PacketV2& request, Bytes& answ
   case V2Command::SetLeds: return set_lamps(read_u16(data, 0), data.subspan(2));
   case V2Command::SetLedsLong: return set_lamps(read_u32(data, 0), data.subspan(4));
   case V2Command::SetLedsShort: return set_lamps(data[0], data.subspan(1));
-  case V2Command::MatrixPixel:
+  case V2Command::MatrixPixel: matrix_.pixel(data[0], data[1], color_at(data, 2)); break;
   case V2Command::MatrixFrame:
-  case V2Command::MatrixSaveFrame:
-  case V2Command::MatrixSaveAnimation:
+    matrix_.clear();
+    for (std::size_t at = 0; at + 3 <= data.size(); at += 3)
+      matrix_.pixel(static_cast<int>(at / 3) % Matrix::side, static_cast<int>(at / 3) / Matrix::side,
+                    color_at(data, at));
+    break;
+  case V2Command::MatrixColor:
+    ball_.set_led(color_at(data, 0));
+    matrix_.fill(color_at(data, 0));
+    break;
+  case V2Command::MatrixSaveFrame: matrix_.save_frame(read_u16(data, 0), data.subspan(2)); break;
+  case V2Command::MatrixSaveAnimation: return save_animation(data);
   case V2Command::MatrixPlay:
+  case V2Command::MatrixPlayLoop: {
+    plays_ = data[0];
+    const bool loops = command == V2Command::MatrixPlayLoop && data[1] != 0;
+    return matrix_.play(data[0], loops, ball_.now()) ? V2Error::Success : V2Error::Failed;
+  }
   case V2Command::MatrixShowFrame:
+    return matrix_.show_frame(read_u16(data, 0)) ? V2Error::Success : V2Error::Failed;
   case V2Command::MatrixFrames:
-  case V2Command::MatrixForget:
-  case V2Command::MatrixPause:
-  case V2Command::MatrixResume:
-  case V2Command::MatrixReset:
-  case V2Command::MatrixOverride:
-  case V2Command::MatrixRotation:
-  case V2Command::MatrixText:
+    for (const int frame : matrix_.frames())
+      append_u16(answer, static_cast<std::uint32_t>(frame));
+    break;
+  case V2Command::MatrixForget: matrix_.forget(); break;
+  case V2Command::MatrixPause: matrix_.pause(ball_.now()); break;
+  case V2Command::MatrixResume: matrix_.resume(ball_.now()); break;
+  case V2Command::MatrixReset: matrix_.clear(); break;
+  case V2Command::MatrixOverride: break; // its animations keep their own speed and fading
+  case V2Command::MatrixRotation: matrix_.rotate(data[0]); break;
+  case V2Command::MatrixText: {
+    plays_.reset();
+    const auto text = as_text(data.subspan(5));
+    matrix_.scroll(color_at(data, 0), data[3], data[4] != 0,
+                   std::string(text.substr(0, text.find('\0'))), ball_.now());
+    break;
+  }
   case V2Command::MatrixLine:
+    matrix_.line(data[0], data[1], data[2], data[3], color_at(data, 4));
+    break;
   case V2Command::MatrixFill:
+    matrix_.rectangle(data[0], data[1], data[2], data[3], color_at(data, 4));
+    break;
   case V2Command::MatrixCharacter:
-  case V2Command::MatrixPlayLoop: break;
-  case V2Command::MatrixColor: ball_.set_led({data[0], data[1], data[2]}); break;
+    matrix_.character(color_at(data, 0), static_cast<char>(data[3]));
+    break;
   case V2Command::ReleaseLeds: ball_.set_led({}); break;
   case V2Command::None: return V2Error::BadCommand;
   }
@@ -370,6 +408,36 @@ void RobotV2::reset_locator() {
 V2Error RobotV2::set_collisions(ByteView data) {
   ask_ball(spec::ApiCommand::ConfigureCollisionDetection, {data.begin(), data.end()});
   return V2Error::Success;
+}
+
+/// Palette, number of frames, frames.
+V2Error RobotV2::save_animation(ByteView data) {
+  constexpr std::size_t palette_at = 4;
+  const std::size_t count_at = palette_at + std::size_t{3} * data[3];
+  if (data.size() < count_at + 2)
+    return V2Error::BadLength;
+  const std::size_t count = read_u16(data, count_at);
+  if (data.size() != count_at + 2 + 2 * count)
+    return V2Error::BadLength;
+  std::vector<Color> palette;
+  for (auto at = palette_at; at < count_at; at += 3)
+    palette.push_back(color_at(data, at));
+  std::vector<int> frames;
+  for (std::size_t frame = 0; frame < count; ++frame)
+    frames.push_back(static_cast<int>(read_u16(data, count_at + 2 + 2 * frame)));
+  matrix_.save_animation(data[0], data[1], data[2] != 0, std::move(palette), std::move(frames));
+  return V2Error::Success;
+}
+
+/// What the matrix plays by itself, and what it has come to show.
+void RobotV2::watch_matrix() {
+  const bool played = matrix_.plays();
+  matrix_.advance(ball_.now());
+  if (played && !matrix_.plays())
+    say(plays_ ? spec::V2Message::MatrixAnimationOver : spec::V2Message::TextOver,
+        V2Processor::Secondary, {plays_.value_or(0)});
+  if (std::exchange(shown_, matrix_.pixels()) != matrix_.pixels())
+    ball_.show_matrix(matrix_.pixels());
 }
 
 std::uint8_t RobotV2::voltage_state() const {
@@ -447,6 +515,7 @@ void RobotV2::fall_asleep() {
   drives_until_ = never;
   stop_streams();
   ball_.set_led({});
+  matrix_.clear();
   awake_ = false;
   sleeps_at_ = never;
   say_soon(spec::V2Message::DidSleep, V2Processor::Primary, {});
@@ -652,7 +721,7 @@ void RobotV2::watch_rotation() {
 }
 
 Instant RobotV2::next_event() const {
-  return std::min({drives_until_, next_sample_, first_.next, second_.next,
+  return std::min({drives_until_, next_sample_, matrix_.next_event(), first_.next, second_.next,
                    soon_.empty() ? never : soon_.front().first,
                    said_will_sleep_ || sleeps_at_ == never
                        ? sleeps_at_
@@ -671,6 +740,7 @@ void RobotV2::run() {
   }
   watch_charger();
   watch_rotation();
+  watch_matrix();
   if (drives_until_ <= now) {
     drives_until_ = never;
     ball_.drive(Stop{});

@@ -6,6 +6,7 @@
 #include "protocol/packet_v2.h"
 #include "spec/robots.h"
 #include "vm/ball.h"
+#include "vm/matrix.h"
 
 #include <array>
 #include <cstdint>
@@ -74,6 +75,8 @@ private:
   void say(spec::V2Message message, spec::V2Processor processor, Bytes data);
   void say_soon(spec::V2Message message, spec::V2Processor processor, Bytes data);
   Bytes message(spec::V2Message message, spec::V2Processor processor, Bytes data) const;
+  spec::V2Error save_animation(ByteView data);
+  void watch_matrix();
   void watch_charger();
   void watch_rotation();
   std::uint8_t voltage_state() const;
@@ -109,6 +112,9 @@ private:
   std::uint8_t volume_ = 255;
   Instant drives_until_ = never;
   std::array<std::uint8_t, 32> lamps_{};
+  Matrix matrix_; ///< of robots that have none it stays dark
+  Matrix::Pixels shown_{};
+  std::optional<std::uint8_t> plays_; ///< the animation; nothing: a text
 
   Duration interval_{};
   int left_ = 0; ///< samples to come; 0: endless

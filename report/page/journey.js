@@ -1,6 +1,6 @@
 // A run, and the ball at any moment of it.
 
-import { last_at } from "./dom.js";
+import { css_color, last_at } from "./dom.js";
 
 function turn(from, to, share) {
   let by = (to - from) % 360;
@@ -21,6 +21,7 @@ export function journey(run) {
   };
   const led = { t: sums(run.led.t), rgb: run.led.rgb };
   const backled = { t: sums(run.backled.t), value: run.backled.value };
+  const matrix = { t: sums(run.matrix?.t ?? []), pixels: run.matrix?.pixels ?? [] };
   // Where the run was, file by file: a program and a macro run side by side.
   const steps = run.files.map(() => ({ t: [], line: [] }));
   sums(run.line.t).forEach((t, i) => {
@@ -44,8 +45,15 @@ export function journey(run) {
   };
   const lamp_at = t => led.rgb[last_at(led.t, t)] ?? 0;
   const tail_at = t => backled.value[last_at(backled.t, t)] ?? 0;
+  /** All lamps of the matrix as RRGGBB, row by row from the bottom left: the newer of LED and picture; null where it
+   *  has none. */
+  const picture_at = t => {
+    if (!run.matrix) return null;
+    const picture = last_at(matrix.t, t), color = last_at(led.t, t);
+    return picture >= 0 && !(led.t[color] > matrix.t[picture]) ? matrix.pixels[picture] : css_color(lamp_at(t)).slice(1).toUpperCase().repeat(64);
+  };
   const name = base_name(run.title);
-  const made = { run, name, pose, led, backled, steps, line_times, variables, stretches: [], state_at, lamp_at, tail_at };
+  const made = { run, name, pose, led, backled, matrix, steps, line_times, variables, stretches: [], state_at, lamp_at, tail_at, picture_at };
   add_stretches(made, 1, Infinity);
   return made;
 }
@@ -61,9 +69,9 @@ function add_stretches({ pose, stretches, lamp_at }, first, most) {
 }
 /** More of a run that goes on: rows of plain values. Its stretches stay short, as the last one is drawn again and
  *  again. */
-export function lengthen(one, { pose, led, backled, line, events }) {
+export function lengthen(one, { pose, led, backled, matrix = { t: [], pixels: [] }, line, events }) {
   const first = one.pose.t.length;
-  for (const [column, more] of [[one.pose, pose], [one.led, led], [one.backled, backled]])
+  for (const [column, more] of [[one.pose, pose], [one.led, led], [one.backled, backled], [one.matrix, matrix]])
     for (const key of Object.keys(column)) column[key].push(...more[key]);
   line.t.forEach((t, i) => {
     const own = one.steps[line.file[i]];

@@ -2,6 +2,7 @@
 
 import { brightness, css_color, shape } from "./dom.js";
 import { area, turned_by } from "./map_chart.js";
+import { draw_lamps, light } from "./matrix.js";
 import { playback } from "./playback.js";
 
 function line_from(chart, from, to) {
@@ -103,9 +104,10 @@ export function draw_ball(chart, parent, tag = "") {
     shape("ellipse", { cx: side * r * .36, cy: -r * .3, rx: r * .25, ry: r * .3 }, eyes);
     shape("circle", { cx: side * r * .36, cy: -r * .4, r: r * .13, class: "pupil" }, eyes);
   }
+  const matrix = chart.one.run.matrix ? draw_lamps(shape("g", { class: "matrix-on-ball" }, nose), r * 1.3) : null;
   const tail = shape("circle", { cy: r - 2, r: r / 5 + 1, fill: "#4a8dff" }, nose);
   if (small) shape("text", { y: -r - 12, class: "mark-word ball-name", "text-anchor": "middle" }, ball).textContent = chart.one.ball;
-  return { ball, lamp, nose, tail, halo, lamp_stops };
+  return { ball, lamp, nose, tail, halo, lamp_stops, matrix };
 }
 const radius_cm = 3.65;
 /** The balls of a room are as large as they are, so that those that meet are seen to touch; but never too small to see. */
@@ -116,7 +118,8 @@ export function place_ball(chart, layers, state) {
   const there = chart.at(state.x, state.y);
   layers.ball.setAttribute("transform", `translate(${there.x.toFixed(2)} ${there.y.toFixed(2)})`);
   layers.nose.setAttribute("transform", `rotate(${(state.heading + turned_by()).toFixed(1)})`);
-  layers.lamp.setAttribute("fill", lamp_color);
+  layers.lamp.setAttribute("fill", layers.matrix ? "none" : lamp_color);
+  if (layers.matrix) light(layers.matrix, chart.one.picture_at(playback.now));
   layers.tail.setAttribute("opacity", (chart.one.tail_at(playback.now) / 255).toFixed(3));
   layers.halo.setAttribute("opacity", lamp ? 1 : 0);
   for (const stop of layers.lamp_stops) stop.setAttribute("stop-color", lamp_color);

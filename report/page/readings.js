@@ -1,6 +1,7 @@
 // What the ball is doing now.
 
-import { $, css_color, element, position_words, rgb_words, speed_words } from "./dom.js";
+import { $, css_color, element, position_words, rgb_words, shape, speed_words } from "./dom.js";
+import { draw_lamps, light, picture_words } from "./matrix.js";
 import { playback, watch } from "./playback.js";
 
 export const readings = {};
@@ -11,6 +12,11 @@ for (const [name, words] of [["position", "at"], ["speed", "speed"], ["heading",
   $("now").append(pair);
 }
 readings.led.append(element("span", { class: "swatch" }), document.createTextNode(""));
+
+const matrix = element("dd", { "data-now": "matrix" }), matrix_pair = element("div", { class: "matrix" });
+const matrix_art = shape("svg", { viewBox: "-40 -40 80 80", role: "img" }, matrix), lamps = draw_lamps(matrix_art, 80);
+matrix_pair.append(element("dt", {}, "matrix"), matrix);
+$("now").prepend(matrix_pair);
 
 let lit = null;
 /** Only what has the colour is told of it: of the whole page each element would be styled anew. */
@@ -31,4 +37,9 @@ watch(state => {
   readings.heading.textContent = `${state.heading.toFixed(1)}°`;
   readings.led.firstChild.style.background = lamp_color;
   readings.led.lastChild.textContent = rgb_words(lamp);
+  const picture = playback.main.picture_at(playback.now);
+  matrix_pair.hidden = picture === null;
+  if (picture === null) return;
+  light(lamps, picture);
+  matrix_art.setAttribute("aria-label", picture_words(picture));
 });

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <utility>
 
 namespace orb::run {
 namespace {
@@ -67,6 +68,46 @@ void Pilot::stop() {
 
 void Pilot::show(vm::Color color) {
   robot_.show(color);
+  matrix_.fill(color);
+}
+
+/// After what it is to show already, so that lamps painted one after the other all arrive.
+void Pilot::tell_matrix(spec::V2Command command, Bytes data) {
+  const auto& row = spec::info(command);
+  robot_.send_soon({row.did(), row.cid(), std::move(data), Request::Need::Try});
+}
+
+void Pilot::paint(int x, int y, vm::Color color) {
+  const auto is_on_it = [](int at) { return at >= 0 && at < vm::Matrix::side; };
+  if (!has_matrix_ || !is_on_it(x) || !is_on_it(y))
+    return;
+  tell_matrix(spec::V2Command::MatrixPixel,
+              {static_cast<std::uint8_t>(x), static_cast<std::uint8_t>(y), color.red, color.green,
+               color.blue});
+  matrix_.pixel(x, y, color);
+}
+
+void Pilot::say(const std::string& text, vm::Color color) {
+  constexpr std::uint8_t columns_per_second = 10;
+  constexpr std::size_t longest = 25;
+  if (!has_matrix_)
+    return;
+  auto words = text.substr(0, longest);
+  for (auto& character : words)
+    if (character < ' ' || character > '~')
+      character = '?';
+  Bytes data{color.red, color.green, color.blue, columns_per_second, 0};
+  data.insert(data.end(), words.begin(), words.end());
+  data.push_back(0);
+  tell_matrix(spec::V2Command::MatrixText, std::move(data));
+  matrix_.scroll(color, columns_per_second, false, words, robot_.now());
+}
+
+void Pilot::clear_matrix() {
+  if (!has_matrix_)
+    return;
+  tell_matrix(spec::V2Command::MatrixColor, {0, 0, 0});
+  matrix_.clear();
 }
 
 void Pilot::hear(const Said& said) {
@@ -79,6 +120,7 @@ void Pilot::hear(const Said& said) {
 }
 
 void Pilot::watch() {
+  matrix_.advance(robot_.now());
   if (stops_at_ && robot_.now() >= *stops_at_)
     stop();
 }

@@ -1,6 +1,8 @@
 #pragma once
 
 #include "run/tether/tether.h"
+#include "spec/robots.h"
+#include "vm/matrix.h"
 
 #include <cstdint>
 #include <optional>
@@ -15,7 +17,8 @@ public:
   /// Without a key for so long the robot stops: somebody may have walked away.
   static constexpr Duration patience = 5s;
 
-  Pilot(Tether& robot, const vm::Sample& first) : robot_(robot), sample_(first) {}
+  Pilot(Tether& robot, spec::Robot kind, const vm::Sample& first)
+      : robot_(robot), has_matrix_(vm::has_matrix(kind)), sample_(first) {}
 
   enum class Key : std::uint8_t { Faster, Slower, Left, Right, Stop, Ahead, Color, Lamp };
   void press(Key key);
@@ -23,6 +26,17 @@ public:
   void steer(int heading_deg, int speed, Duration patience);
   void stop();
   void show(vm::Color color);
+
+  // On its matrix; a robot without one is told nothing.
+  bool has_matrix() const { return has_matrix_; }
+  /// One lamp: 0 <= x, y < 8 from the bottom left; others are left alone.
+  void paint(int x, int y, vm::Color color);
+  /// A text that scrolls over it once: at most 25 characters, the rest is cut off (LIB); `?` for
+  /// what is no printable ASCII.
+  void say(const std::string& text, vm::Color color);
+  void clear_matrix();
+  /// What it shows, as far as this pilot has told it.
+  const vm::Matrix::Pixels& picture() const { return matrix_.pixels(); }
 
   /// What the robot says.
   void hear(const Said& said);
@@ -39,8 +53,11 @@ public:
 
 private:
   void obey(Duration patience);
+  void tell_matrix(spec::V2Command command, Bytes data);
 
   Tether& robot_;
+  bool has_matrix_;
+  vm::Matrix matrix_; ///< shows what the robot's does
   vm::Sample sample_;
   std::optional<vm::stimulus::Battery> battery_;
   int heading_ = 0; ///< as the pilot counts it

@@ -274,6 +274,7 @@ void Tether::obey(const vm::Motion& motion) {
 }
 
 void Tether::show(vm::Color color) {
+  soon_.clear();
   const auto all = wire_->show(color);
   waiting(Kind::Lamp) = all.front();
   if (all.size() > 1)
@@ -300,7 +301,7 @@ Instant Tether::next_due() const {
   for (std::size_t kind = 0; kind < kinds; ++kind)
     if (waiting_[kind] && may_leave(static_cast<Kind>(kind)))
       due = next_send_;
-  if (stopped_ && !parting_.empty())
+  if ((stopped_ && !parting_.empty()) || !soon_.empty())
     due = std::min(due, next_send_);
   if (battery_at_)
     due = std::min(due, std::max(next_send_, *battery_at_));
@@ -363,6 +364,11 @@ tl::expected<void, LinkError> Tether::send_due() {
   if (driving_ && !stale_ && now() >= driven_at_ + budgets_.repeat) {
     driven_at_ = now();
     return send(*driving_, Kind::Drive);
+  }
+  if (!soon_.empty()) {
+    const auto request = soon_.front();
+    soon_.pop_front();
+    return send(request, Kind::Other);
   }
   return {};
 }
@@ -490,6 +496,7 @@ tl::expected<void, Failure> Tether::pump(Instant deadline,
 void Tether::wind_up() {
   finished_ = true; // it is not told to stop once more when it is left
   winding_up_ = true;
+  soon_.clear();
   stale_ = false;
   battery_at_.reset();
   want_stop();

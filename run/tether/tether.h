@@ -12,6 +12,7 @@
 #include <optional>
 #include <string_view>
 #include <tl/expected.hpp>
+#include <utility>
 
 namespace orb::run {
 
@@ -66,6 +67,9 @@ public:
   void obey(const vm::Motion& motion) override;
   void show(vm::Color color) override;
   void show_back(int level) override;
+  /// Sends a request once nothing more urgent waits, after those given before. What is given so
+  /// paints over what show() shows, so a newer show() drops what waits.
+  void send_soon(Request request) { soon_.push_back(std::move(request)); }
 
   /// Sends what is due and waits for news until `deadline` at the latest. What the robot has said
   /// goes to `hear`. The failure is why the run cannot go on.
@@ -167,6 +171,7 @@ private:
   std::optional<Request> held_; ///< what it is to drive once nobody holds it
   Instant driven_at_{};
   int heading_ = 0;
+  std::deque<Request> soon_; ///< of send_soon()
   std::deque<Pending> open_; ///< sent, not answered
   std::optional<vm::stimulus::Battery> battery_;
   std::optional<Failure> refused_;

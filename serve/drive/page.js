@@ -1,5 +1,6 @@
 import { addToCurves } from "./curves.js";
 import { addToGround } from "./ground.js";
+import { numbersOf, readyMatrix, showMatrix } from "./matrix.js";
 import { letGo, post, readyWheel } from "./wheel.js";
 
 const state = document.getElementById("state");
@@ -14,6 +15,7 @@ function listen() {
     const values = Object.fromEntries(said.values.map(([name, , number]) => [name, number]));
     addToGround(values.x, values.y, values.yaw);
     addToCurves(said.t, said.values);
+    showMatrix(said.matrix);
   };
   source.onerror = () => {
     state.classList.add("lost");
@@ -22,6 +24,7 @@ function listen() {
 }
 
 readyWheel();
+readyMatrix();
 document.getElementById("stop").addEventListener("click", letGo);
 document.getElementById("ahead").addEventListener("click", () => post("ahead"));
 document.getElementById("fastest").addEventListener("input", (event) => {
@@ -29,7 +32,7 @@ document.getElementById("fastest").addEventListener("input", (event) => {
 });
 document.getElementById("color").addEventListener("input", (event) => {
   const hex = event.target.value;
-  post("color", [1, 3, 5].map((at) => parseInt(hex.slice(at, at + 2), 16)).join(" "));
+  post("color", numbersOf(hex));
 });
 document.getElementById("lamp").addEventListener("change", () => post("lamp"));
 listen();

@@ -93,6 +93,57 @@ class Drive(unittest.TestCase):
                                f"(document.getElementById('{name}'))")
         self.assertEqual(self.page.complaints, [])
 
+    def lamp(self, x, y):
+        return self.page.evaluate(f"document.querySelector('#lamps [data-x=\"{x}\"][data-y=\"{y}\"]').dataset.color")
+
+    def place(self, x, y):
+        return self.page.evaluate(f"(({{x, y, width, height}}) => [x + width / 2, y + height / 2])"
+                                  f"(document.querySelector('#lamps [data-x=\"{x}\"][data-y=\"{y}\"]').getBoundingClientRect())")
+
+    def settle(self, wanted):
+        """Until the page shows what the robot has been told, and no longer what was painted here."""
+        self.page.evaluate("new Promise(done => setTimeout(done, 700))")
+        self.page.wait(wanted)
+
+    lit = "[...document.querySelectorAll('#lamps button')].filter(lamp => lamp.dataset.color !== '#000000').map(lamp => lamp.dataset.x + lamp.dataset.y + lamp.dataset.color).join(' ')"
+
+    def test_a_drag_paints_on_the_matrix(self):
+        self.page.wait("!document.getElementById('matrix').hidden")
+        self.page.resize(1200, 1400)
+        self.page.evaluate("document.getElementById('pen').value = '#ff8000'")
+        self.mouse("mousePressed", *self.place(1, 0))
+        self.mouse("mouseMoved", *self.place(2, 0))
+        self.mouse("mouseMoved", *self.place(2, 1))
+        self.mouse("mouseReleased", *self.place(2, 1))
+        self.mouse("mouseMoved", *self.place(5, 5))
+        self.settle(f"{self.lit} === '21#ff8000 10#ff8000 20#ff8000'")
+        # The keys go on from there.
+        self.page.evaluate("document.querySelector('#lamps [tabindex=\"0\"]').focus()")
+        self.page.key("ArrowUp")
+        self.page.key("ArrowRight")
+        self.assertEqual(self.page.evaluate("document.activeElement.getAttribute('aria-label')"), "2, 1: #ff8000")
+        self.page.evaluate("document.activeElement.click()")
+        self.settle("true")
+        self.assertEqual(self.lamp(2, 1), "#ff8000")
+        # The light fills it, and what is painted then lies on top.
+        self.page.evaluate("(e => { e.value = '#0000ff'; e.dispatchEvent(new Event('input')); })(document.getElementById('color'))")
+        self.settle("[...document.querySelectorAll('#lamps button')].every(lamp => lamp.dataset.color === '#0000ff')")
+        self.page.evaluate("document.getElementById('clear').click()")
+        self.settle(f"{self.lit} === ''")
+        self.page.evaluate("document.getElementById('text').value = 'orb'")
+        self.page.evaluate("document.getElementById('say').requestSubmit()")
+        self.page.wait(f"{self.lit} !== ''")
+        self.page.wait(f"{self.lit} === ''")
+        self.assertEqual(self.page.complaints, [])
+
+    def test_what_is_no_lamp_is_left_alone(self):
+        for path, data in (("pixel", b"8 0 255 0 0"), ("pixel", b"0 -1 255 0 0"), ("pixel", b"0 0 256 0 0"), ("pixel", b"1 1"),
+                           ("text", b""), ("text", b"1 2"), ("text", b"1 2 x hello"), ("text", b"300 0 0 hello")):
+            urllib.request.urlopen(urllib.request.Request(self.url + path, data), timeout=5).close()
+        self.settle(f"{self.lit} === ''")
+        urllib.request.urlopen(urllib.request.Request(self.url + "pixel", b"7 7 0 255 0"), timeout=5).close()
+        self.settle(f"{self.lit} === '77#00ff00'")
+
     def test_nobody_else_finds_the_page(self):
         base = self.url[:self.url.index("/", len("http://")) + 1]
         for path, data in (("", None), ("events", None), ("0123456789abcdef0123456789abcdef/drive", b"0 255")):

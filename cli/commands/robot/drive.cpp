@@ -90,6 +90,29 @@ std::optional<std::array<int, Count>> numbers_in(std::string_view text) {
   return text.empty() ? std::optional(numbers) : std::nullopt;
 }
 
+/// The last three numbers as a colour; nothing where one is none of 0 to 255.
+template <std::size_t Count>
+std::optional<vm::Color> color_in(const std::optional<std::array<int, Count>>& numbers) {
+  if (!numbers)
+    return std::nullopt;
+  const auto last = numbers->end() - 3;
+  if (std::any_of(last, numbers->end(), [](int one) { return one < 0 || one > UINT8_MAX; }))
+    return std::nullopt;
+  return vm::Color{static_cast<std::uint8_t>(last[0]), static_cast<std::uint8_t>(last[1]),
+                   static_cast<std::uint8_t>(last[2])};
+}
+
+/// `255 200 0 hello`: a colour, then what is said in it.
+void say_on_matrix(Pilot& pilot, std::string_view body) {
+  auto blank = body.find(' ');
+  for (int numbers = 1; numbers < 3 && blank != body.npos; ++numbers)
+    blank = body.find(' ', blank + 1);
+  if (blank == body.npos)
+    return;
+  if (const auto color = color_in(numbers_in<3>(body.substr(0, blank))))
+    pilot.say(std::string(body.substr(blank + 1)), *color);
+}
+
 /// What the page's user does. Anything else is left alone.
 void obey_page(Pilot& pilot, std::string_view path, std::string_view body) {
   const auto is_byte = [](int value) { return value >= 0 && value <= UINT8_MAX; };
@@ -103,11 +126,16 @@ void obey_page(Pilot& pilot, std::string_view path, std::string_view body) {
     if (const auto wheel = numbers_in<2>(body); wheel && is_byte((*wheel)[1]))
       pilot.steer((*wheel)[0], (*wheel)[1], page_patience);
   } else if (path == "color") {
-    if (const auto color = numbers_in<3>(body);
-        color && is_byte((*color)[0]) && is_byte((*color)[1]) && is_byte((*color)[2]))
-      pilot.show({static_cast<std::uint8_t>((*color)[0]), static_cast<std::uint8_t>((*color)[1]),
-                  static_cast<std::uint8_t>((*color)[2])});
-  }
+    if (const auto color = color_in(numbers_in<3>(body)))
+      pilot.show(*color);
+  } else if (path == "pixel") {
+    const auto lamp = numbers_in<5>(body);
+    if (const auto color = color_in(lamp))
+      pilot.paint((*lamp)[0], (*lamp)[1], *color);
+  } else if (path == "text")
+    say_on_matrix(pilot, body);
+  else if (path == "clear")
+    pilot.clear_matrix();
 }
 
 /// All that the robot says, with names and units, for the page.
@@ -213,9 +241,11 @@ private:
     if (page_ == nullptr || page_->listeners() == 0)
       return;
     const double t = std::chrono::duration<double>(robot_.now() - began_).count();
-    page_->send(
-        Json{{"robot", title_}, {"t", t}, {"words", pilot_.words()}, {"values", values_of(pilot_)}}
-            .dump());
+    Json said{
+        {"robot", title_}, {"t", t}, {"words", pilot_.words()}, {"values", values_of(pilot_)}};
+    if (pilot_.has_matrix())
+      said["matrix"] = vm::hex_of(pilot_.picture());
+    page_->send(said.dump());
   }
 
   const Context& context_;
@@ -260,7 +290,7 @@ tl::expected<void, Failure> drive_by_hand(Context& context, const DriveOptions& 
   const auto first = robot.begin(options.keep_aim ? run::Aim::Keep : run::Aim::Zero);
   if (!first)
     return named(first.error());
-  Pilot pilot(robot, *first);
+  Pilot pilot(robot, tether.robot, *first);
   if (robot.battery())
     pilot.hear({*robot.battery()});
   Keys keys;

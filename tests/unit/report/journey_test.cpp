@@ -1,7 +1,9 @@
 #include "report/journey.h"
 #include "report/page.h"
 #include "report/svg.h"
+#include "report/trace.h"
 
+#include <algorithm>
 #include <gtest/gtest.h>
 
 namespace orb::report {
@@ -53,6 +55,52 @@ Journey square() {
   journey.add(ms(160), event::End{event::End::Reason::End, 2});
   journey.finish(ms(160), "end", "ended");
   return journey;
+}
+
+/// One with a picture at 70 ms.
+Journey pictured(spec::Robot robot) {
+  auto journey = square();
+  journey.set_robot(robot);
+  event::Matrix picture;
+  picture.pixels[1] = {1, 0xAB, 255};
+  journey.add(ms(70), picture);
+  return journey;
+}
+
+TEST(Journey, KeepsThePicturesOfAMatrix) {
+  const auto journey = pictured(spec::Robot::Bolt);
+  ASSERT_EQ(journey.pictures().entries().size(), 1U);
+  EXPECT_EQ(journey.pictures().entries()[0].t, ms(70));
+  const auto run = run_json(journey, "square.bas");
+  EXPECT_NE(run.find("\"matrix\":{\"t\":[70000],\"pixels\":[\"00000001ABFF000000"),
+            std::string::npos);
+  Shown shown;
+  EXPECT_NE(growth_json(journey, shown).find("\"pixels\":[\"00000001ABFF"), std::string::npos);
+  EXPECT_EQ(growth_json(journey, shown).find("pixels"), std::string::npos); // it was told
+}
+
+TEST(Journey, HasAMatrixOnlyWhereTheRobotHasOne) {
+  EXPECT_EQ(run_json(pictured(spec::Robot::Mini), "square.bas").find("pixels"), std::string::npos);
+  auto bolt = square();
+  EXPECT_EQ(run_json(bolt, "square.bas").find("pixels"), std::string::npos);
+  bolt.set_robot(spec::Robot::Bolt);
+  EXPECT_NE(run_json(bolt, "square.bas").find("\"matrix\":{\"t\":[],\"pixels\":[]}"),
+            std::string::npos);
+}
+
+TEST(Trace, HasThePictureOfAMatrix) {
+  event::Matrix picture;
+  picture.pixels[0] = {255, 0, 1};
+  const auto json = trace_line(TraceFormat::Json, ms(5), picture);
+  EXPECT_TRUE(json.starts_with("{\"t\":5.000,\"event\":\"matrix\",\"pixels\":\"FF0001000000"))
+      << json;
+  EXPECT_TRUE(json.ends_with("000000\"}\n")) << json;
+  EXPECT_EQ(json.find_last_of('"') - json.find("FF0001"), 64 * 6U);
+  // No column of its own: all traces have the same.
+  const auto csv = trace_line(TraceFormat::Csv, ms(5), picture);
+  const auto head = trace_head(TraceFormat::Csv);
+  EXPECT_EQ(std::count(csv.begin(), csv.end(), ','), std::count(head.begin(), head.end(), ','));
+  EXPECT_NE(csv.find(",\"FF0001000000"), std::string::npos);
 }
 
 TEST(Journey, AddsUp) {

@@ -25,8 +25,9 @@ using spec::V2Message;
 /// A client that sends packets and notes what comes.
 class PacketClient {
 public:
-  explicit PacketClient(Robot which) : robot(spec::info(which)) {
+  explicit PacketClient(Robot which, Observer* observer = nullptr) : robot(spec::info(which)) {
     BallOptions options;
+    options.observer = observer;
     options.robot = which;
     options.driving = spec::driving(which);
     ball = std::make_unique<Ball>(options);
@@ -106,14 +107,17 @@ TEST(RobotV2, AnswersTheExampleOfEachCommandThatItKnowsAndRefusesTheOthers) {
       client.ask(V2Command::Wake);
       client.live(3s);
       if (row.command == V2Command::StreamStart && spec::knows(client.robot, row))
-        client.ask(V2Command::StreamConfigure, {1, 0, 6, 2});
+        client.ask(V2Command::StreamConfigure, {1, 0, 10, 2});
       const bool shell = row.command == V2Command::Shell;
       // Nothing has been kept that could be shown.
       const bool shows = row.command == V2Command::MatrixPlay ||
                          row.command == V2Command::MatrixPlayLoop ||
                          row.command == V2Command::MatrixShowFrame;
       const auto name = fmt::format("{}: {}", client.robot.name, row.name);
-      const auto error = client.ask(row.command, example_of(row));
+      auto request = address(protocol::make_request(row.command, example_of(row), client.seq), client.robot);
+      if (row.command == V2Command::StreamConfigure) // its example is of the second
+        request.target = spec::v2_target(spec::V2Processor::Secondary);
+      const auto error = client.ask(request);
       if (!spec::knows(client.robot, row)) {
         EXPECT_TRUE(error == V2Error::BadCommand || error == V2Error::BadDevice) << name;
         continue;
@@ -194,6 +198,37 @@ TEST(RobotV2, StreamsEachTokenOfAnRvr) {
   const std::map<std::pair<int, int>, std::size_t> expected{
       {{0x12, 1}, 1 + 24}, {{0x12, 2}, 1 + 24}, {{0x11, 1}, 1 + 13}};
   EXPECT_EQ(sizes, expected);
+}
+
+TEST(RobotV2, DrawsOnTheMatrixOfABoltAndSaysWhenItHasPlayed) {
+  struct Pictures final : Observer {
+    void on_event(Instant, const Event& event) override {
+      if (const auto* matrix = std::get_if<event::Matrix>(&event))
+        all.push_back(matrix->pixels);
+    }
+    std::vector<Matrix::Pixels> all;
+  } pictures;
+  PacketClient client(Robot::Bolt, &pictures);
+  client.ask(V2Command::Wake);
+  EXPECT_EQ(client.ask(V2Command::MatrixPixel, {2, 3, 255, 0, 0}), V2Error::Success);
+  ASSERT_EQ(pictures.all.size(), 1U);
+  EXPECT_EQ(pictures.all.back()[3 * 8 + 2], (Color{255, 0, 0}));
+  EXPECT_EQ(client.ask(V2Command::MatrixText, {0, 0, 255, 30, 0, 'h', 'i', 0}), V2Error::Success);
+  client.live(2s);
+  EXPECT_GT(pictures.all.size(), 10U);
+  EXPECT_EQ(client.count(V2Message::TextOver), 1);
+  Bytes frame(34, 0xFF);
+  frame[0] = frame[1] = 0;
+  EXPECT_EQ(client.ask(V2Command::MatrixSaveFrame, frame), V2Error::Success);
+  EXPECT_EQ(client.ask(V2Command::MatrixFrames), V2Error::Success);
+  EXPECT_EQ(client.answer->data, (Bytes{0, 0}));
+  EXPECT_EQ(client.ask(V2Command::MatrixSaveAnimation,
+                       {7, 10, 0, 1, 1, 2, 3, 0, 2, 0, 0, 0, 0}),
+            V2Error::Success);
+  EXPECT_EQ(client.ask(V2Command::MatrixPlay, {7}), V2Error::Success);
+  client.live(1s);
+  EXPECT_EQ(client.count(V2Message::MatrixAnimationOver), 1);
+  EXPECT_EQ(client.ask(V2Command::MatrixPlay, {8}), V2Error::Failed);
 }
 
 TEST(RobotV2, ADroidThatWasJustWokenDropsWhatMovesIt) {

@@ -35,6 +35,7 @@ private:
   }
   void mix_int(int value) { mix(static_cast<std::uint64_t>(static_cast<std::int64_t>(value))); }
   void take(const event::StopLost&) {} // of robots elsewhere
+  void take(const event::Matrix&) {}   // of a BOLT
   void take(const event::Print& x) {
     for (const char c : x.text)
       mix(static_cast<unsigned char>(c));
