@@ -61,9 +61,11 @@ std::string played(Matrix& matrix) {
   for (Instant at = start; text.size() < 40; at = matrix.next_event()) {
     matrix.advance(at);
     const auto color = matrix.pixels().front();
-    text += color == red ? 'r' : color == blue ? 'b' : color == Color{} ? '.' : '~';
-    if (matrix.next_event() == never)
-      return text + '|';
+    text.push_back(color == red ? 'r' : color == blue ? 'b' : color == Color{} ? '.' : '~');
+    if (matrix.next_event() == never) {
+      text.push_back('|');
+      break;
+    }
   }
   return text;
 }
