@@ -56,10 +56,10 @@ std::string lamps_of(std::uint32_t mask) {
     const int first = lamp;
     while (lamp + 1 < std::numeric_limits<std::uint32_t>::digits && (mask >> (lamp + 1) & 1U) != 0)
       ++lamp;
-    out += out.empty() ? "lamps " : " and ";
+    out += out.empty() ? "" : " and ";
     out += first == lamp ? std::to_string(first) : fmt::format("{} to {}", first, lamp);
   }
-  return out.empty() ? "none" : out;
+  return out.empty() ? "none" : (std::has_single_bit(mask) ? "lamp " : "lamps ") + out;
 }
 
 /// What the words of programs set and read on a robot of packets v2.
