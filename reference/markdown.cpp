@@ -50,6 +50,18 @@ std::string anchor(std::string_view heading) {
   return out;
 }
 
+/// The same of an entry: a heading whose link an earlier one has is numbered.
+std::string anchor(const Section& section, const Entry& entry) {
+  const auto own = anchor(entry.name);
+  int earlier = 0;
+  for (const auto& other : section.entries) {
+    if (&other == &entry)
+      break;
+    earlier += anchor(other.name) == own ? 1 : 0;
+  }
+  return earlier == 0 ? own : fmt::format("{}-{}", own, earlier);
+}
+
 /// Where the pages explain what; made once for a page.
 class Links {
 public:
@@ -108,7 +120,7 @@ private:
   void add(const Section& section, const Section& here) {
     const auto page = section.id == here.id ? std::string() : fmt::format("{}.md", section.id);
     for (const auto& entry : section.entries) {
-      const auto place = fits_table(section) ? page : page + "#" + anchor(entry.name);
+      const auto place = fits_table(section) ? page : page + "#" + anchor(section, entry);
       if (!place.empty())
         places_.try_emplace(entry.name, place);
     }
@@ -184,7 +196,7 @@ std::string contents(const Section& section, const Links& links) {
     const auto plain = fmt::format("\n| `{}` |", table_cell(entry.name));
     if (const auto at = out.find(plain); at != std::string::npos)
       out.replace(at, plain.size(),
-                  fmt::format("\n| [`{}`](#{}) |", table_cell(entry.name), anchor(entry.name)));
+                  fmt::format("\n| [`{}`](#{}) |", table_cell(entry.name), anchor(section, entry)));
   }
   return out;
 }

@@ -4,6 +4,7 @@ the numbers on it equal the trace of the same run. usage: page_test.py ORB CHECK
 
 Exits 77 (skipped, to ctest) where no Chromium is installed."""
 
+import copy
 import glob
 import json
 import os
@@ -124,6 +125,46 @@ class Report(unittest.TestCase):
             led = self.dance.at("led", pose["t"])
             wanted = f"{led['r']}, {led['g']}, {led['b']}" if led else "0, 0, 0"
             self.assertEqual(page.evaluate(reading("led")), wanted)
+
+    def test_a_bolt_has_a_matrix(self):
+        program = self.file("lights.bas", "10 RGB 0,120,0\n20 delay 1000\n30 RGB 0,0,0\n40 delay 1000\n50 goroll 0,60,1\n60 delay 500\n70 goroll 0,0,0\n")
+        lamps = "[...document.querySelectorAll('[data-now=matrix] rect')].map(lamp => lamp.style.fill)"
+        on_ball = "[...document.querySelectorAll('#ball .matrix-on-ball rect')].map(lamp => lamp.style.fill)"
+        label = "document.querySelector('[data-now=matrix] svg').getAttribute('aria-label')"
+        for name, words in (("bolt", ["--robot", "bolt"]), ("sim", ["--port", "sim:", "--robot", "bolt"])):
+            run = Run(self.folder.name, name, program, *words, lines=False)
+            page = self.open(run)
+            page.evaluate(f"{seek}(800000)")
+            self.assertEqual(page.evaluate(lamps), ["rgb(0, 120, 0)"] * 64)
+            self.assertEqual(page.evaluate(on_ball), ["rgb(0, 120, 0)"] * 64)
+            self.assertEqual(page.evaluate(label), "Matrix: all #007800")
+            page.evaluate(f"{seek}(1800000)")
+            self.assertEqual(page.evaluate(lamps), [""] * 64)
+            self.assertEqual(page.evaluate(label), "Matrix: dark")
+        # A picture shows until the LED has another colour; the first lamp is at the bottom left.
+        with open(run.page_path, encoding="utf-8") as file:
+            text = file.read()
+        pixels = "FF0000" + "000000" * 7 + "0000FF" + "000000" * 55
+        drawn = text.replace('"matrix":{"t":[],"pixels":[]}', f'"matrix":{{"t":[500000],"pixels":["{pixels}"]}}')
+        self.assertNotEqual(drawn, text)
+        of_picture = copy.copy(run)
+        of_picture.page_path = self.file("drawn.html", drawn)
+        page = self.open(of_picture)
+        page.evaluate(f"{seek}(800000)")
+        places = page.evaluate("[...document.querySelectorAll('[data-now=matrix] rect')].filter(lamp => lamp.style.fill).map(lamp => (({x, y}) => [x, y])(lamp.getBoundingClientRect()))")
+        self.assertEqual(len(places), 2)
+        (red_x, red_y), (blue_x, blue_y) = places
+        least_x, most_y = page.evaluate("(list => [Math.min(...list.map(one => one.x)), Math.max(...list.map(one => one.y))])([...document.querySelectorAll('[data-now=matrix] rect')].map(lamp => lamp.getBoundingClientRect()))")
+        self.assertEqual((red_x, red_y), (least_x, most_y))
+        self.assertEqual(blue_x, red_x)
+        self.assertLess(blue_y, red_y)
+        self.assertEqual(page.evaluate(label), "Matrix: 2 of 64 lamps lit")
+        page.evaluate(f"{seek}(1800000)")
+        self.assertEqual(page.evaluate(label), "Matrix: dark")
+        # Others have none.
+        plain = self.open(self.dance)
+        self.assertTrue(plain.evaluate("document.querySelector('.now .matrix').hidden"))
+        self.assertEqual(plain.evaluate("document.querySelectorAll('.matrix-on-ball').length"), 0)
 
     def test_plays_and_pauses(self):
         page = self.open(self.dance)

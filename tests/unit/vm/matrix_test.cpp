@@ -1,5 +1,7 @@
 #include "vm/matrix.h"
 
+#include "vm/ball.h"
+
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 #include <set>
@@ -397,6 +399,24 @@ TEST(Matrix, ForgetsWhatWasSaved) {
   matrix.save_frame(0, plain_frame(1));
   matrix.show_frame(0);
   EXPECT_EQ(matrix.pixels(), filled({17, 17, 17})); // no colours are left
+}
+
+TEST(Matrix, ABallTellsWhatItsMatrixShows) {
+  struct Heard final : Observer {
+    void on_event(Instant at, const Event& event) override {
+      if (const auto* matrix = std::get_if<event::Matrix>(&event))
+        pictures.emplace_back(at, matrix->pixels);
+    }
+    std::vector<std::pair<Instant, Matrix::Pixels>> pictures;
+  } heard;
+  BallOptions options;
+  options.observer = &heard;
+  Ball ball(options);
+  ball.advance_to(start + 1s);
+  EXPECT_TRUE(heard.pictures.empty());
+  ball.show_matrix(filled(blue));
+  ASSERT_EQ(heard.pictures.size(), 1U);
+  EXPECT_EQ(heard.pictures[0], std::pair(start + 1s, filled(blue)));
 }
 
 // It does not matter how often somebody looks.

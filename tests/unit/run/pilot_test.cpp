@@ -1,0 +1,134 @@
+#include "run/tether/pilot.h"
+
+#include "protocol/packet_v2.h"
+#include "tests/fakes/far_robot.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <string>
+#include <vector>
+
+namespace orb::run {
+namespace {
+
+/// Hears what goes to the robot.
+class Overheard final : public protocol::Transport {
+public:
+  explicit Overheard(protocol::Transport& link) : link_(link) {}
+  Instant now() const override { return link_.now(); }
+  tl::expected<void, protocol::LinkError> write(ByteView bytes) override {
+    decoder_.feed(bytes);
+    while (const auto item = decoder_.next())
+      if (item->kind == protocol::ItemV2::Kind::Packet)
+        packets.push_back(item->packet);
+    return link_.write(bytes);
+  }
+  tl::expected<Bytes, protocol::LinkError> read(Instant deadline) override {
+    return link_.read(deadline);
+  }
+
+  /// The data of the commands to the matrix, in the order in which they left.
+  std::string on_matrix() const {
+    std::string text;
+    for (const auto& packet : packets)
+      for (const auto command : {spec::V2Command::MatrixPixel, spec::V2Command::MatrixColor,
+                                 spec::V2Command::MatrixText})
+        if (packet.did == spec::info(command).did() && packet.cid == spec::info(command).cid())
+          text += fmt::format("{}: {}\n", spec::info(command).name, to_hex(packet.data));
+    return text;
+  }
+  std::vector<protocol::PacketV2> packets;
+
+private:
+  protocol::Transport& link_;
+  protocol::DecoderV2 decoder_;
+};
+
+struct Scene {
+  explicit Scene(spec::Robot which)
+      : far(which, *protocol::parse_fault_plan("seed=1"), 10ms), link(*far.link),
+        tether(link, which, TetherBudgets{}), pilot(tether, which, *tether.begin(Aim::Zero)) {
+    link.packets.clear();
+  }
+  void live(Duration time) {
+    for (const auto end = link.now() + time; link.now() < end;) {
+      pilot.watch();
+      ASSERT_TRUE(tether.pump(end, [&](const Said& said) { pilot.hear(said); }));
+    }
+  }
+
+  test::FarRobot far;
+  Overheard link;
+  Tether tether;
+  Pilot pilot;
+};
+
+TEST(Pilot, EveryLampThatIsPaintedArrives) {
+  Scene scene(spec::Robot::Bolt);
+  EXPECT_TRUE(scene.pilot.has_matrix());
+  scene.pilot.paint(0, 7, {255, 0, 0});
+  scene.pilot.paint(1, 7, {255, 0, 0});
+  scene.pilot.paint(8, 0, {255, 0, 0});
+  scene.pilot.paint(0, -1, {255, 0, 0});
+  scene.pilot.paint(0, 7, {0, 0, 1});
+  EXPECT_EQ(scene.pilot.picture()[7 * 8], (vm::Color{0, 0, 1}));
+  // No later than the robot can take them: one each 75 ms, the first once setup has had its turn.
+  scene.live(75ms * 3 + 10ms);
+  EXPECT_EQ(scene.link.on_matrix(), "set-matrix-pixel: 00 07 FF 00 00\n"
+                                    "set-matrix-pixel: 01 07 FF 00 00\n"
+                                    "set-matrix-pixel: 00 07 00 00 01\n");
+}
+
+TEST(Pilot, AColorPaintsOverWhatHasNotLeft) {
+  Scene scene(spec::Robot::Bolt);
+  for (int x = 0; x < vm::Matrix::side; ++x)
+    scene.pilot.paint(x, 0, {255, 0, 0});
+  scene.pilot.show({0, 255, 0});
+  scene.pilot.paint(3, 3, {0, 0, 255});
+  scene.live(3s);
+  EXPECT_EQ(scene.link.on_matrix(), "set-matrix-color: 00 FF 00\n"
+                                    "set-matrix-pixel: 03 03 00 00 FF\n");
+  EXPECT_EQ(scene.pilot.picture()[0], (vm::Color{0, 255, 0}));
+}
+
+TEST(Pilot, PaintingDoesNotKeepTheRobotFromDriving) {
+  Scene scene(spec::Robot::Bolt);
+  scene.pilot.steer(0, 60, 10s);
+  for (int i = 0; i < 80; ++i)
+    scene.pilot.paint(i % 8, i / 8 % 8, {255, 0, 0});
+  scene.live(4s); // longer than it would drive after one command
+  EXPECT_TRUE(scene.far.drives());
+  scene.pilot.stop();
+  scene.live(500ms);
+  EXPECT_FALSE(scene.far.drives());
+}
+
+TEST(Pilot, SaysAText) {
+  Scene scene(spec::Robot::Bolt);
+  scene.pilot.say("A\n0123456789012345678901234567890", {1, 2, 3});
+  EXPECT_NE(scene.pilot.picture(), vm::filled({}));
+  scene.live(500ms);
+  EXPECT_EQ(scene.link.on_matrix(),
+            "scroll-matrix-text: 01 02 03 0A 00 41 3F 30 31 32 33 34 35 36 37 38 39 30 31 32 33 34 "
+            "35 36 37 38 39 30 31 32 00\n");
+  scene.live(30s);
+  EXPECT_EQ(scene.pilot.picture(), vm::filled({})); // it has left
+  scene.pilot.paint(1, 1, {9, 9, 9});
+  scene.pilot.clear_matrix();
+  EXPECT_EQ(scene.pilot.picture(), vm::filled({}));
+  scene.live(500ms);
+  EXPECT_TRUE(scene.link.on_matrix().ends_with("set-matrix-color: 00 00 00\n"));
+}
+
+TEST(Pilot, ARobotWithoutAMatrixIsToldNothing) {
+  Scene scene(spec::Robot::Mini);
+  EXPECT_FALSE(scene.pilot.has_matrix());
+  scene.pilot.paint(1, 1, {255, 0, 0});
+  scene.pilot.say("hello", {255, 0, 0});
+  scene.pilot.clear_matrix();
+  scene.live(1s);
+  EXPECT_EQ(scene.link.on_matrix(), "");
+}
+
+} // namespace
+} // namespace orb::run
