@@ -139,7 +139,9 @@ std::string DescriberV2::service_sample(const PacketV2& packet) const {
   const auto found = services_.find({packet.source, packet.data[0]});
   std::string out = fmt::format("token {}", packet.data[0]);
   if (found == services_.end())
-    return packet.data.size() == 1 ? out : fmt::format("{}, data {}", out, to_hex(ByteView(packet.data).subspan(1)));
+    return packet.data.size() == 1
+               ? out
+               : fmt::format("{}, data {}", out, to_hex(ByteView(packet.data).subspan(1)));
   std::size_t at = 1;
   for (const auto& [row, bits] : found->second) {
     std::string numbers;
@@ -198,9 +200,9 @@ std::string DescriberV2::describe(const ItemV2& item) {
   const auto is_response = spec::has(packet.flags, spec::V2Flag::Response);
   const auto name = name_of(packet);
   auto out = fmt::format("{}{}{}: flags {:02X} ({})",
-                         is_response  ? "response"
+                         is_response          ? "response"
                          : is_message(packet) ? "message"
-                                      : "command",
+                                              : "command",
                          name.empty() ? "" : " ", name, packet.flags, flag_names(packet.flags));
   if (!packet.extended_flags.empty())
     out += fmt::format(", extended flags {}", to_hex(packet.extended_flags));

@@ -74,7 +74,8 @@ void add_words(Entry& entry, const spec::RobotInfo& row) {
   entry.facts.emplace_back("battery", fmt::format("low at {} V, critical at {} V, full at {} V",
                                                   battery.low, battery.critical, battery.charged));
   if (const auto wakes = spec::wakes_in(row.robot); wakes.count() > 0)
-    entry.facts.emplace_back("just woken", fmt::format("drops what moves it for {} ms", wakes.count()));
+    entry.facts.emplace_back("just woken",
+                             fmt::format("drops what moves it for {} ms", wakes.count()));
 }
 
 /// Which words of programs mean nothing to the robot.

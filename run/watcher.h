@@ -98,7 +98,7 @@ public:
     seen.way_cm = body.rolled_cm();
     seen.motion = body.is_driven() ? Sight::Motion::Driven
                   : body.stopped() ? Sight::Motion::Still
-                                             : Sight::Motion::Rolling;
+                                   : Sight::Motion::Rolling;
     return seen;
   }
 

@@ -402,8 +402,7 @@ void Robot::publish_device() {
 }
 
 bool Robot::publishes(const spec::BleCharacteristicInfo& row) const {
-  const bool greets = row.characteristic != BleCharacteristic::AntiDosV2 ||
-                      !spec::is_open(model_);
+  const bool greets = row.characteristic != BleCharacteristic::AntiDosV2 || !spec::is_open(model_);
   return spec::protocol_of(row.characteristic) == protocol_ && greets;
 }
 

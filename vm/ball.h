@@ -33,7 +33,7 @@ struct BallOptions : ProgramOptions {
   spec::Firmware firmware = spec::default_firmware;
   spec::Robot robot = spec::Robot::Sphero; ///< whose battery and axes it has
   spec::Driving driving;                   ///< how it drives
-  Placement start;       ///< where it stands in its world
+  Placement start;                         ///< where it stands in its world
   Wire wire = Wire::Paced;
   Observer* observer = nullptr;  ///< must outlive the ball
   StepObserver* steps = nullptr; ///< the same; sees every step of the body
@@ -219,7 +219,7 @@ private:
   bool interrupted_ = false;
   std::optional<Instant> idle_since_;
   bool double_shake_ = false;
-  ShakeSense shakes_; ///< of a robot that is elsewhere
+  ShakeSense shakes_;    ///< of a robot that is elsewhere
   Instant deaf_until_{}; ///< the dead time after a collision
   Instant watch_at_ = never;
   std::optional<Instant> felt_at_; ///< when a robot elsewhere said something last

@@ -200,7 +200,8 @@ V2Error RobotV2::perform(V2Command command, const PacketV2& request, Bytes& answ
     break;
   }
   case V2Command::GetProcessorName:
-    append_text(answer, request.target == spec::v2_target(V2Processor::Secondary) ? "ST" : "Nordic");
+    append_text(answer,
+                request.target == spec::v2_target(V2Processor::Secondary) ? "ST" : "Nordic");
     break;
   case V2Command::DeepSleep:
   case V2Command::Sleep: fall_asleep(); break;
@@ -218,8 +219,8 @@ V2Error RobotV2::perform(V2Command command, const PacketV2& request, Bytes& answ
     break;
   case V2Command::GetPercent: {
     const auto battery = spec::battery(robot_.robot);
-    const double part =
-        std::clamp((body.battery_v() - battery.empty) / (battery.charged - battery.empty), 0.0, 1.0);
+    const double part = std::clamp(
+        (body.battery_v() - battery.empty) / (battery.charged - battery.empty), 0.0, 1.0);
     answer = {static_cast<std::uint8_t>(std::lround(part * hundredths))};
     break;
   }
@@ -340,8 +341,8 @@ V2Error RobotV2::perform(V2Command command, const PacketV2& request, Bytes& answ
   case V2Command::MatrixFrame:
     matrix_.clear();
     for (std::size_t at = 0; at + 3 <= data.size(); at += 3)
-      matrix_.pixel(static_cast<int>(at / 3) % Matrix::side, static_cast<int>(at / 3) / Matrix::side,
-                    color_at(data, at));
+      matrix_.pixel(static_cast<int>(at / 3) % Matrix::side,
+                    static_cast<int>(at / 3) / Matrix::side, color_at(data, at));
     break;
   case V2Command::MatrixColor:
     ball_.set_led(color_at(data, 0));
@@ -688,7 +689,8 @@ void RobotV2::hear_ball() {
         item->code != static_cast<std::uint8_t>(spec::AsyncId::Collision))
       continue;
     if (wishes_.sensed_collisions)
-      say(spec::V2Message::CollisionSensed, V2Processor::Secondary, {item->data.end() - 1, item->data.end()});
+      say(spec::V2Message::CollisionSensed, V2Processor::Secondary,
+          {item->data.end() - 1, item->data.end()});
     else if (wishes_.collisions) // the same bytes
       say(spec::V2Message::Collision, V2Processor::Secondary,
           {item->data.begin(), item->data.end()});

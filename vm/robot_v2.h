@@ -99,8 +99,8 @@ private:
   std::deque<Bytes> out_;
   std::deque<std::pair<Instant, Bytes>> soon_; ///< messages that follow an answer
   bool awake_ = false;
-  Instant moves_from_{};       ///< until then it drops what moves it
-  Instant sleeps_at_ = never;  ///< without another packet
+  Instant moves_from_{};      ///< until then it drops what moves it
+  Instant sleeps_at_ = never; ///< without another packet
   bool said_will_sleep_ = false;
   Wishes wishes_;
   bool was_charging_ = false;

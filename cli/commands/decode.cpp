@@ -279,7 +279,8 @@ void add_decode(const Command& orb, Context& context) {
   command.add_option(
       "FILE", arguments->words,
       "hex bytes, or a file of hex, raw bytes or a recording; stdin if - or omitted");
-  command.add_flag("--v2", arguments->v2, "read them as packets v2, of the newer robots; without it whichever fits");
+  command.add_flag("--v2", arguments->v2,
+                   "read them as packets v2, of the newer robots; without it whichever fits");
   add_format_option(command, arguments->format);
   command
       .add_option("--from", arguments->from,

@@ -32,9 +32,9 @@ struct PortOptions {
   std::string port = "sim:";
   spec::Robot robot = spec::Robot::Sphero; ///< that `sim:` is
   std::optional<spec::Driving> driving;    ///< how that drives; else like `robot`
-  std::string record;        ///< a file for the bytes of both directions; empty for none
-  std::string answer = "2s"; ///< the wait for one answer
-  std::string step = "10s";  ///< the wait for one step to a robot over Bluetooth LE
+  std::string record;          ///< a file for the bytes of both directions; empty for none
+  std::string answer = "2s";   ///< the wait for one answer
+  std::string step = "10s";    ///< the wait for one step to a robot over Bluetooth LE
   std::string stale = "500ms"; ///< without sensor data for so long a driven robot is stopped
   int collision_threshold = run::CollisionLimits{}.threshold; ///< of a driven robot
 };

@@ -33,8 +33,7 @@ bool alike(const std::vector<spec::Robot>& robots) {
   const auto& first = spec::info(robots.front());
   return std::all_of(robots.begin(), robots.end(), [&](spec::Robot robot) {
     const auto& row = spec::info(robot);
-    return row.targets == first.targets && row.sensors == first.sensors &&
-           row.lamps == first.lamps;
+    return row.targets == first.targets && row.sensors == first.sensors && row.lamps == first.lamps;
   });
 }
 

@@ -29,8 +29,9 @@ constexpr Duration longest_wait = 200ms;
 
 Tether::Tether(protocol::Transport& transport, spec::Robot robot, const TetherBudgets& budgets,
                const Streamed& streamed)
-    : transport_(&transport), robot_(robot), budgets_(budgets), wire_(make_wire(robot, budgets.collisions)),
-      streamed_(streamed), looked_at_(transport.now()) {}
+    : transport_(&transport), robot_(robot), budgets_(budgets),
+      wire_(make_wire(robot, budgets.collisions)), streamed_(streamed),
+      looked_at_(transport.now()) {}
 
 Tether::~Tether() {
   if (began_ && !finished_)
@@ -178,8 +179,7 @@ tl::expected<void, Failure> Tether::hold() {
   held_ = waits(Kind::Drive) ? std::exchange(waiting(Kind::Drive), std::nullopt) : driving_;
   driving_.reset();
   if (!brake({}))
-    return tl::unexpected(
-        refused_.value_or(Failure{ExitCode::LinkLost, std::string(stop_lost)}));
+    return tl::unexpected(refused_.value_or(Failure{ExitCode::LinkLost, std::string(stop_lost)}));
   return ask_all(wire_->silence());
 }
 
@@ -221,8 +221,8 @@ void Tether::resume(std::optional<Request> drive) {
 }
 
 void Tether::drive_motors(vm::Motors motors) {
-  for (auto [motor, before] : {std::pair{&motors.left, &motors_.left},
-                               std::pair{&motors.right, &motors_.right}})
+  for (auto [motor, before] :
+       {std::pair{&motors.left, &motors_.left}, std::pair{&motors.right, &motors_.right}})
     if (motor->mode == vm::MotorMode::Ignore)
       *motor = *before;
   motors_ = motors;

@@ -155,11 +155,11 @@ private:
   Streamed streamed_;
   std::uint8_t seq_ = 0;
 
-  std::array<std::optional<Request>, kinds> waiting_;     ///< to leave
-  std::array<std::uint8_t, kinds> newest_{};              ///< sequence number of the newest sent
+  std::array<std::optional<Request>, kinds> waiting_;      ///< to leave
+  std::array<std::uint8_t, kinds> newest_{};               ///< sequence number of the newest sent
   std::array<std::optional<Instant>, kinds> busy_since_{}; ///< for so long it takes none of them
-  std::deque<Request> stopping_; ///< steps of a stop: each leaves once the last is acknowledged
-  bool stop_open_ = false;       ///< the first of them has been sent and not been answered
+  std::deque<Request> stopping_;   ///< steps of a stop: each leaves once the last is acknowledged
+  bool stop_open_ = false;         ///< the first of them has been sent and not been answered
   std::optional<Request> driving_; ///< the last that left and keeps it moving: repeated
   std::deque<Request> parting_;    ///< to be sent after the brake
   bool winding_up_ = false;

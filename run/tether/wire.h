@@ -43,8 +43,9 @@ enum class Aim : std::uint8_t { Zero, Keep };
 
 /// What counts as a collision: per axis a threshold and what full speed adds to it.
 struct CollisionLimits {
-  int threshold = 32; ///< 1..255. Source: LIB, the least of what clients use; 100 misses a wall at 40
-  int speed = 32;     ///< 0..255
+  int threshold =
+      32;         ///< 1..255. Source: LIB, the least of what clients use; 100 misses a wall at 40
+  int speed = 32; ///< 0..255
 
   /// The operands of `configure-collision-detection`, of v1 and v2 alike.
   Bytes operands() const;

@@ -133,7 +133,8 @@ public:
       flags_ = read_u32(*answer, 0);
   }
   std::vector<Request> setup_more() const override {
-    return {timeout(), flags(flags_.value_or(0) | motion_timeout_flag), collisions(limits_.operands())};
+    return {timeout(), flags(flags_.value_or(0) | motion_timeout_flag),
+            collisions(limits_.operands())};
   }
   std::vector<Request> stream(const Streamed& streamed) override;
   std::vector<Request> silence() const override;
@@ -147,9 +148,7 @@ public:
   std::optional<Request> show_back(int level) const override {
     return request(ApiCommand::SetBackLed, {static_cast<std::uint8_t>(level)});
   }
-  Request ask_battery() const override {
-    return request(ApiCommand::GetPowerState, {});
-  }
+  Request ask_battery() const override { return request(ApiCommand::GetPowerState, {}); }
   std::optional<vm::stimulus::Battery> read_battery(const Bytes& answer) const override {
     constexpr std::size_t voltage = 2; // its place; in 0.01 V
     if (answer.size() < voltage + 2)

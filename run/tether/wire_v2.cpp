@@ -121,8 +121,7 @@ bool is_sane(const vm::Sample& sample) {
 
 class WireV2 final : public RobotWire {
 public:
-  WireV2(spec::Robot robot, CollisionLimits limits)
-      : robot_(spec::info(robot)), limits_(limits) {}
+  WireV2(spec::Robot robot, CollisionLimits limits) : robot_(spec::info(robot)), limits_(limits) {}
 
   Bytes encode(const Request& request, std::uint8_t seq) const override;
   std::uint8_t next_seq(std::uint8_t seq) const override {

@@ -232,8 +232,8 @@ private:
   Bytes answers_;
 };
 
-/// Between what the robot says comes nonsense in whole packets: samples too short and too long, values
-/// without sense, answers to nothing, error codes that no table has.
+/// Between what the robot says comes nonsense in whole packets: samples too short and too long,
+/// values without sense, answers to nothing, error codes that no table has.
 class BabblingLink final : public PassingLink {
 public:
   BabblingLink(protocol::Transport& inner, std::uint64_t seed, const spec::RobotInfo& robot)

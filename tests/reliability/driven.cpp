@@ -24,7 +24,8 @@ using namespace orb;
 
 constexpr std::string_view square =
     "10 for I = 0 to 3\n20 RGB 60 * I,0,255\n30 goroll I * 90,60,1\n"
-    "40 delay 700\n50 goroll I * 90,0,0\n60 delay 300\n70 next I\n80 raw 1,200,1,120\n90 delay 500\n";
+    "40 delay 700\n50 goroll I * 90,0,0\n60 delay 300\n70 next I\n80 raw 1,200,1,120\n90 delay "
+    "500\n";
 
 constexpr auto profiles = std::to_array<std::string_view>(
     {"", "drop=1%", "drop=10%", "dup=10%", "dup-request=10%", "flip=1%", "flip=10%",

@@ -147,16 +147,15 @@ private:
           continue;
         if (answer_->error == 0 || request.need == run::Request::Need::Try)
           return answer_->error == 0 ? answer_->data : Bytes{};
-        return tl::unexpected(
-            Failure{ExitCode::Refused,
-                    fmt::format("the robot refuses {}: {}", wire_->name_of(request),
-                                wire_->describe(answer_->error))});
+        return tl::unexpected(Failure{
+            ExitCode::Refused, fmt::format("the robot refuses {}: {}", wire_->name_of(request),
+                                           wire_->describe(answer_->error))});
       }
     }
-    return tl::unexpected(Failure{ExitCode::LinkLost,
-                                  fmt::format("the robot does not answer {}; wake it, bring it "
-                                              "closer, or run `orb doctor`",
-                                              wire_->name_of(request))});
+    return tl::unexpected(
+        Failure{ExitCode::LinkLost, fmt::format("the robot does not answer {}; wake it, bring it "
+                                                "closer, or run `orb doctor`",
+                                                wire_->name_of(request))});
   }
 
   tl::expected<void, Failure> hear(Instant until) {

@@ -173,7 +173,8 @@ TEST(Tether, ARobotThatIsAlwaysBusyIsARefusal) {
       const auto driven = run_over(link, which, program, heard);
       ASSERT_TRUE(driven && driven->failure);
       EXPECT_EQ(driven->failure->code, ExitCode::Refused);
-      EXPECT_NE(driven->failure->message.find("busy"), std::string::npos) << driven->failure->message;
+      EXPECT_NE(driven->failure->message.find("busy"), std::string::npos)
+          << driven->failure->message;
     }
 }
 
@@ -298,7 +299,8 @@ TEST(Tether, ItsBatteryIsItsOwn) {
   for (const auto& row : spec::robots) {
     Robot robot(row.robot);
     Heard heard;
-    const auto driven = run_on(robot, row.robot, "10 delay 200\n20 print Vbatt\n30 print Sbatt\n", heard);
+    const auto driven =
+        run_on(robot, row.robot, "10 delay 200\n20 print Vbatt\n30 print Sbatt\n", heard);
     ASSERT_TRUE(driven && !driven->failure) << row.name;
     int volts = 0, state = 0;
     ASSERT_EQ(std::sscanf(heard.prints.c_str(), "%d %d", &volts, &state), 2) << heard.prints;
@@ -327,12 +329,12 @@ TEST(Tether, AnyBytesFromARobotAreNoValueOfTheProgram) {
       Robot robot(row.robot);
       test::BabblingLink link(*robot.link, seed, row);
       Heard heard;
-      const auto driven =
-          run_over(link, row.robot,
-                   "10 goroll 90,60,1\n20 for I = 1 to 40\n30 delay 50\n"
-                   "40 if abs(xpos) > 2000 then print \"far\"\n50 if speed > 255 then print \"fast\"\n"
-                   "60 next I\n",
-                   heard);
+      const auto driven = run_over(
+          link, row.robot,
+          "10 goroll 90,60,1\n20 for I = 1 to 40\n30 delay 50\n"
+          "40 if abs(xpos) > 2000 then print \"far\"\n50 if speed > 255 then print \"fast\"\n"
+          "60 next I\n",
+          heard);
       EXPECT_EQ(heard.prints, "") << row.name << " " << seed;
       expect_stopped(robot, driven, std::string(row.name));
     }

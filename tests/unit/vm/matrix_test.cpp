@@ -74,7 +74,9 @@ std::string played(Matrix& matrix) {
 
 TEST(Matrix, OnlyABoltHasOne) {
   for (const auto& robot : spec::robots)
-    EXPECT_EQ(has_matrix(robot.robot), robot.robot == spec::Robot::Bolt || robot.robot == spec::Robot::BoltPlus) << robot.name;
+    EXPECT_EQ(has_matrix(robot.robot),
+              robot.robot == spec::Robot::Bolt || robot.robot == spec::Robot::BoltPlus)
+        << robot.name;
 }
 
 TEST(Matrix, CountsFromTheBottomLeft) {

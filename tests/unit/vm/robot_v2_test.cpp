@@ -114,7 +114,8 @@ TEST(RobotV2, AnswersTheExampleOfEachCommandThatItKnowsAndRefusesTheOthers) {
                          row.command == V2Command::MatrixPlayLoop ||
                          row.command == V2Command::MatrixShowFrame;
       const auto name = fmt::format("{}: {}", client.robot.name, row.name);
-      auto request = address(protocol::make_request(row.command, example_of(row), client.seq), client.robot);
+      auto request =
+          address(protocol::make_request(row.command, example_of(row), client.seq), client.robot);
       if (row.command == V2Command::StreamConfigure) // its example is of the second
         request.target = spec::v2_target(spec::V2Processor::Secondary);
       const auto error = client.ask(request);
@@ -143,7 +144,8 @@ TEST(RobotV2, GivesAnEducationalClientWhatItAsksFor) {
     std::uint32_t extended;
   };
   for (const auto& [which, mask, extended] :
-       {Stream{Robot::Bolt, 0x03C7E27A, 0x03840000}, Stream{Robot::BoltPlus, 0x03C7E27A, 0x03840000},
+       {Stream{Robot::Bolt, 0x03C7E27A, 0x03840000},
+        Stream{Robot::BoltPlus, 0x03C7E27A, 0x03840000},
         Stream{Robot::Mini, 0x0007E27A, 0x03800000}, Stream{Robot::Bb9e, 0x0007E27A, 0x03800000},
         Stream{Robot::R2d2, 0x0007E278, 0x07800000}}) {
     const auto values = static_cast<std::size_t>(std::popcount(mask) + std::popcount(extended));
@@ -154,7 +156,8 @@ TEST(RobotV2, GivesAnEducationalClientWhatItAsksFor) {
     EXPECT_EQ(client.ask(V2Command::LocatorFlags, {0}), V2Error::Success) << name;
     EXPECT_EQ(client.ask(V2Command::ResetLocator), V2Error::Success) << name;
     EXPECT_EQ(client.ask(V2Command::GyroMaxNotify, {1}), V2Error::Success) << name;
-    EXPECT_EQ(client.ask(V2Command::CollisionDetection, {1, 90, 90, 130, 130, 1}), V2Error::Success) << name;
+    EXPECT_EQ(client.ask(V2Command::CollisionDetection, {1, 90, 90, 130, 130, 1}), V2Error::Success)
+        << name;
     Bytes request{0, 150, 0};
     append_u32(request, mask);
     Bytes more;
@@ -180,13 +183,15 @@ TEST(RobotV2, StreamsEachTokenOfAnRvr) {
   PacketClient client(Robot::Rvr);
   ASSERT_EQ(client.ask(V2Command::Wake), V2Error::Success);
   const auto ask = [&](V2Command command, spec::V2Processor processor, Bytes data) {
-    auto request = address(protocol::make_request(command, std::move(data), client.seq), client.robot);
+    auto request =
+        address(protocol::make_request(command, std::move(data), client.seq), client.robot);
     request.target = spec::v2_target(processor);
     return client.ask(request);
   };
   using enum spec::V2Processor;
   EXPECT_EQ(ask(V2Command::StreamConfigure, Secondary, {1, 0, 1, 2, 0, 2, 2}), V2Error::Success);
-  EXPECT_EQ(ask(V2Command::StreamConfigure, Secondary, {2, 0, 6, 2, 0, 9, 2, 0, 11, 2}), V2Error::Success);
+  EXPECT_EQ(ask(V2Command::StreamConfigure, Secondary, {2, 0, 6, 2, 0, 9, 2, 0, 11, 2}),
+            V2Error::Success);
   EXPECT_EQ(ask(V2Command::StreamConfigure, Primary, {1, 0, 3, 0, 0, 9, 2}), V2Error::Success);
   EXPECT_EQ(ask(V2Command::StreamStart, Secondary, {0, 150}), V2Error::Success);
   EXPECT_EQ(ask(V2Command::StreamStart, Primary, {0, 150}), V2Error::Success);
@@ -222,8 +227,7 @@ TEST(RobotV2, DrawsOnTheMatrixOfABoltAndSaysWhenItHasPlayed) {
   EXPECT_EQ(client.ask(V2Command::MatrixSaveFrame, frame), V2Error::Success);
   EXPECT_EQ(client.ask(V2Command::MatrixFrames), V2Error::Success);
   EXPECT_EQ(client.answer->data, (Bytes{0, 0}));
-  EXPECT_EQ(client.ask(V2Command::MatrixSaveAnimation,
-                       {7, 10, 0, 1, 1, 2, 3, 0, 2, 0, 0, 0, 0}),
+  EXPECT_EQ(client.ask(V2Command::MatrixSaveAnimation, {7, 10, 0, 1, 1, 2, 3, 0, 2, 0, 0, 0, 0}),
             V2Error::Success);
   EXPECT_EQ(client.ask(V2Command::MatrixPlay, {7}), V2Error::Success);
   client.live(1s);
