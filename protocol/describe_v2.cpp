@@ -171,14 +171,11 @@ std::string DescriberV2::fields_of(const PacketV2& packet) const {
     if (row->message == V2Message::ServiceSample)
       return service_sample(packet);
     auto data = packet.data;
-    constexpr std::size_t with_third_power = 18;
-    constexpr std::ptrdiff_t third_power = 11;
-    std::string third;
-    if (row->message == V2Message::Collision && data.size() == with_third_power) {
-      third = fmt::format(", z power {}", static_cast<std::int16_t>(read_u16(data, third_power)));
-      data.erase(data.begin() + third_power, data.begin() + third_power + 2);
-    }
-    return values(spec::v2_says, row->message, data) + third;
+    constexpr std::size_t with_short_time = 16;
+    constexpr std::ptrdiff_t time_at = 14;
+    if (row->message == V2Message::Collision && data.size() == with_short_time)
+      data.insert(data.begin() + time_at, 2, 0);
+    return values(spec::v2_says, row->message, data);
   }
   const auto* row = spec::find_v2_command(packet.did, packet.cid);
   if (row == nullptr || packet.error != 0)

@@ -212,7 +212,8 @@ V2Error RobotV2::perform(V2Command command, const PacketV2& request, Bytes& answ
   case V2Command::BatteryNotify: wishes_.battery = data[0] != 0; break;
   case V2Command::Wake:
     if (!std::exchange(awake_, true)) {
-      moves_from_ = ball_.now() + spec::wakes_in(robot_.robot);
+      if (has_slept_) // switched on it stands ready
+        moves_from_ = ball_.now() + spec::wakes_in(robot_.robot);
       reset_locator(); // it follows a new yaw zero, as clients expect whatever its flags
       say_soon(spec::V2Message::Woke, V2Processor::Primary, {});
     }
@@ -518,6 +519,7 @@ void RobotV2::fall_asleep() {
   ball_.set_led({});
   matrix_.clear();
   awake_ = false;
+  has_slept_ = true;
   sleeps_at_ = never;
   say_soon(spec::V2Message::DidSleep, V2Processor::Primary, {});
 }
@@ -691,9 +693,16 @@ void RobotV2::hear_ball() {
     if (wishes_.sensed_collisions)
       say(spec::V2Message::CollisionSensed, V2Processor::Secondary,
           {item->data.end() - 1, item->data.end()});
-    else if (wishes_.collisions) // the same bytes
-      say(spec::V2Message::Collision, V2Processor::Secondary,
-          {item->data.begin(), item->data.end()});
+    else if (wishes_.collisions) {
+      // x y z, axis and two powers are the same; then a third power, and half of the time.
+      constexpr std::ptrdiff_t same = 11;
+      constexpr std::ptrdiff_t time_at = 14;
+      Bytes data(item->data.begin(), item->data.begin() + same);
+      append_u16(data, 0);
+      data.push_back(item->data[same]);
+      data.insert(data.end(), item->data.begin() + time_at, item->data.end());
+      say(spec::V2Message::Collision, V2Processor::Secondary, std::move(data));
+    }
   }
 }
 

@@ -99,6 +99,7 @@ private:
   std::deque<Bytes> out_;
   std::deque<std::pair<Instant, Bytes>> soon_; ///< messages that follow an answer
   bool awake_ = false;
+  bool has_slept_ = false;
   Instant moves_from_{};      ///< until then it drops what moves it
   Instant sleeps_at_ = never; ///< without another packet
   bool said_will_sleep_ = false;

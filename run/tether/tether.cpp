@@ -193,14 +193,15 @@ tl::expected<void, Failure> Tether::go_on() {
 // What the ball asks of its body.
 
 /// Whatever drove the motors is what is stopped: a robot without stabilization ignores a roll.
-std::deque<Request> Tether::stop_steps() const {
+std::deque<Request> Tether::stop_steps() {
   std::deque<Request> steps;
   if (loose_) {
+    heading_ = facing_deg_; // nobody knows where its motors have turned it to
     steps.push_back(*wire_->drive(vm::Motors{}));
     if (auto on = wire_->drive(vm::Stabilization::On))
       steps.push_back(*std::move(on));
   }
-  steps.push_back(wire_->brake(loose_ ? facing_deg_ : heading_));
+  steps.push_back(wire_->brake(heading_));
   return steps;
 }
 
@@ -508,6 +509,7 @@ void Tether::relink(protocol::Transport& transport) {
   transport_ = &transport;
   wire_->feed({});
   open_.clear();
+  stop_open_ = false;
 }
 
 /// Sends the request, once at least, until it is acknowledged, `until` passes or the link is lost.

@@ -136,7 +136,7 @@ private:
   bool brake(const std::function<void(const Said&)>& hear);
   void await_rest(const std::function<void(const Said&)>& hear);
   void watch_samples();
-  std::deque<Request> stop_steps() const;
+  std::deque<Request> stop_steps();
   void want_stop();
   void resume(std::optional<Request> drive);
   void drive_motors(vm::Motors motors);

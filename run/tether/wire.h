@@ -52,9 +52,9 @@ struct CollisionLimits {
   static Bytes off() { return Bytes(6, 0); }
 };
 
-/// What a robot says of a collision, in packets v1 and v2: 16 bytes, or 18 with a third power;
-/// nothing for another size.
-std::optional<vm::event::Collision> read_collision(ByteView data);
+/// What a robot says of a collision: 16 or 18 bytes, the speed after two powers (API v1) or three
+/// (v2); nothing for another size.
+std::optional<vm::event::Collision> read_collision(ByteView data, std::size_t speed_at);
 
 /// The packets of a robot: what is wanted of it as requests, what it sends as values. It holds no
 /// time and sends nothing.

@@ -210,7 +210,7 @@ std::optional<Said> WireV1::next() {
       if (const auto sample = read_frame(item->data, streamed_, spec::axes(robot_)))
         return Said{*sample};
     if (item->code == static_cast<std::uint8_t>(spec::AsyncId::Collision))
-      if (const auto blow = read_collision(item->data))
+      if (const auto blow = read_collision(item->data, 11))
         return Said{*blow};
   }
   return std::nullopt;

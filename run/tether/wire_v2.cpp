@@ -272,7 +272,7 @@ std::optional<Said> WireV2::next() {
     if (row->message == spec::V2Message::CollisionSensed)
       return Said{vm::event::Collision{}}; // it tells no more than that
     if (row->message == spec::V2Message::Collision)
-      if (const auto blow = read_collision(packet.data))
+      if (const auto blow = read_collision(packet.data, 13))
         return Said{*blow};
   }
   return std::nullopt;

@@ -55,7 +55,7 @@ function peripheral(port) {
 }
 
 async function drive(robot, Toy) {
-  const ball = spawn(orb, ["ball", "--robot", robot, "--tcp", "127.0.0.1:0"], { stdio: ["ignore", "pipe", "inherit"] });
+  const ball = spawn(orb, ["ball", "--robot", robot, "--tcp", "127.0.0.1:0", "--stimulus", "at 4s push 0 200"], { stdio: ["ignore", "pipe", "inherit"] });
   try {
     const port = await new Promise((resolve) => ball.stdout.once("data", (text) => resolve(Number(/:(\d+)/.exec(text)[1]))));
     const link = peripheral(port);
@@ -63,7 +63,7 @@ async function drive(robot, Toy) {
     await driven.start();
     const version = await driven.appVersion();
     assert(version.major >= 0 && version.minor >= 0);
-    assert(Math.abs((await driven.batteryVoltage()) - 7.8) < 0.5, "its battery");
+    assert(Math.abs((await driven.batteryVoltage()) - 3.9) < 0.4, "its battery of one cell");
     await driven.setMainLedColor(0, 0, 255);
     await driven.setBackLedIntensity(255);
     if (driven.configureSensorStream) {
@@ -73,11 +73,17 @@ async function drive(robot, Toy) {
       await sleep(500);
       assert(samples > 3, `${samples} samples`);
     }
+    let collisions = 0;
+    if (driven.configureCollisionDetection) {
+      driven.on("onCollision", () => ++collisions);
+      await driven.configureCollisionDetection(40, 40, 40, 40, 10);
+    }
     if (driven.setStance) await driven.setStance(1);
     await driven.roll(100, 0, []);
     await sleep(900);
     await driven.roll(0, 0, []);
-    await sleep(900);
+    await sleep(driven.configureCollisionDetection ? 3000 : 900);
+    assert(!driven.configureCollisionDetection || collisions > 0, "it was pushed and said nothing");
     await driven.destroy();
     await sleep(300);
     const where = path.join(folder, "where.bas");

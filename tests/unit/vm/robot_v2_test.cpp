@@ -237,6 +237,7 @@ TEST(RobotV2, DrawsOnTheMatrixOfABoltAndSaysWhenItHasPlayed) {
 
 TEST(RobotV2, ADroidThatWasJustWokenDropsWhatMovesIt) {
   PacketClient client(Robot::R2d2);
+  client.ask(V2Command::Sleep);
   client.ask(V2Command::Wake);
   EXPECT_EQ(client.ask(V2Command::DriveWithHeading, {60, 0, 0, 0}), V2Error::Success);
   EXPECT_FALSE(client.ball->body().is_driven());
