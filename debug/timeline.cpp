@@ -47,6 +47,8 @@ tl::expected<void, Failure> Timeline::start() {
                                   "a streamed macro plays while it arrives and cannot be paused; "
                                   "give it an id other than 254"});
   auto made = run::ball_options(options_);
+  if (robot_ != nullptr)
+    made.robot = robot_->kind();
   made.native_programs = &native_;
   made.observer = this;
   made.steps = this;

@@ -2,6 +2,7 @@
 
 #include "base/exit_code.h"
 #include "base/time.h"
+#include "spec/robots.h"
 #include "vm/body/elsewhere.h"
 #include "vm/observer.h"
 #include "vm/stimulus.h"
@@ -20,6 +21,8 @@ using Felt = std::variant<vm::Sample, vm::event::Collision, vm::stimulus::Batter
 /// to begin with. When it is destroyed, it has been told to stop.
 class HeldRobot : public vm::Elsewhere {
 public:
+  /// Which it is: its battery is its own.
+  virtual spec::Robot kind() const { return spec::Robot::Sphero; }
   /// What it said before the run.
   virtual const vm::Sample& first() const = 0;
   /// Lets it drive on as it did when it was held; the time of the run is `t` now.

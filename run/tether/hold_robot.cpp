@@ -24,6 +24,7 @@ public:
   void show(vm::Color color) override { robot_.show(color); }
   void show_back(int level) override { robot_.show_back(level); }
 
+  spec::Robot kind() const override { return options_.robot; }
   const vm::Sample& first() const override { return first_; }
   Duration time() const override { return robot_.is_stale() ? paused_at_ : elapsed(); }
 
