@@ -318,11 +318,12 @@ V2Error RobotV2::perform(V2Command command, const PacketV2& request, Bytes& answ
   case V2Command::StreamConfigure: return configure(request);
   case V2Command::StreamStart: {
     auto& stream = services_of(request);
-    stream.period = std::chrono::milliseconds{read_u16(data, 0)};
+    const Duration period = std::chrono::milliseconds{read_u16(data, 0)};
     if (stream.tokens.empty())
       return V2Error::Failed;
-    if (stream.period == Duration{})
+    if (period == Duration{})
       return V2Error::BadParameter;
+    stream.period = period;
     stream.next = ball_.now() + stream.period;
     break;
   }
@@ -355,7 +356,11 @@ V2Error RobotV2::perform(V2Command command, const PacketV2& request, Bytes& answ
   case V2Command::MatrixPlayLoop: {
     plays_ = data[0];
     const bool loops = command == V2Command::MatrixPlayLoop && data[1] != 0;
-    return matrix_.play(data[0], loops, ball_.now()) ? V2Error::Success : V2Error::Failed;
+    if (!matrix_.play(data[0], loops, ball_.now()))
+      return V2Error::Failed;
+    if (!matrix_.plays()) // one picture
+      say_soon(spec::V2Message::MatrixAnimationOver, V2Processor::Secondary, {data[0]});
+    return V2Error::Success;
   }
   case V2Command::MatrixShowFrame:
     return matrix_.show_frame(read_u16(data, 0)) ? V2Error::Success : V2Error::Failed;
@@ -479,7 +484,10 @@ void RobotV2::drive(ByteView data) {
   if (robot_.sensors == spec::RobotSensors::Services) // nobody else can end raw motors
     ball_.drive(Stabilization::On);
   ball_.drive(Roll{heading % spec::ball::full_circle, speed, go});
-  drives_until_ = speed == 0 ? never : ball_.now() + spec::v2_drive_timeout;
+  if (speed != 0)
+    drives_until_ = ball_.now() + spec::v2_drive_timeout;
+  else if (ball_.body().stabilized()) // raw motors go on, and end by themselves
+    drives_until_ = never;
 }
 
 V2Error RobotV2::set_motors(ByteView data) {

@@ -72,6 +72,7 @@ tl::expected<OnRobot, Failure> run_on_robot(const Context& context, const RunOpt
   console.outlive_output([&robot] { robot.link.stopper->interrupt(); });
   auto driven =
       run::run_tethered(inputs, options, console, journey, *robot.link.transport, robot.tether);
+  console.outlive_output([] {}); // what is left to say is said without the robot
   if (!driven)
     return tl::unexpected(name_robot(robot.link, given.robot, driven.error()));
   if (driven->failure)

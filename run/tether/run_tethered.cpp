@@ -112,7 +112,8 @@ tl::expected<TetheredEnding, Failure> run_tethered(std::span<const Input> inputs
   over = true;
   bool stopped = robot.finish(run.hear());
   std::unique_ptr<protocol::Transport> second;
-  if (!stopped && tether.reopen && failure && failure->code == ExitCode::LinkLost) {
+  const bool lost = robot.link_lost() || (failure && failure->code == ExitCode::LinkLost);
+  if (!stopped && tether.reopen && lost) {
     second = tether.reopen();
     if (second != nullptr) {
       robot.relink(*second);

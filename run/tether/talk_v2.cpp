@@ -33,7 +33,11 @@ tl::expected<protocol::PacketV2, Failure> TalkV2::ask(spec::V2Command command, B
         if (item->kind != protocol::ItemV2::Kind::Packet)
           continue;
         asleep_ = is(item->packet, spec::V2Message::DidSleep);
-        if (item->packet.seq == seq_ && spec::has(item->packet.flags, spec::V2Flag::Response)) {
+        const auto& row = spec::info(command);
+        // A late answer to somebody else may have the same number.
+        if (item->packet.seq == seq_ && item->packet.did == row.did() &&
+            item->packet.cid == row.cid() &&
+            spec::has(item->packet.flags, spec::V2Flag::Response)) {
           seq_ = seq_ >= spec::v2_last_seq ? 0 : static_cast<std::uint8_t>(seq_ + 1);
           return std::move(item->packet);
         }

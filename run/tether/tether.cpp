@@ -83,7 +83,9 @@ tl::expected<std::optional<Bytes>, Failure> Tether::ask(const Request& request, 
           answer = *one;
       }
     }
-    open_.clear();
+    for (const auto& one : std::exchange(open_, {}))
+      if (one.kind != Kind::Drive && one.kind != Kind::Stabilization)
+        send_again(one); // a lamp, say: it leaves once the run goes on
     if (!answer)
       continue;
     if (answer->error == 0)
@@ -205,9 +207,25 @@ std::deque<Request> Tether::stop_steps() {
   return steps;
 }
 
-void Tether::want_stop() {
-  stopping_ = stop_steps();
+void Tether::begin_stop(std::deque<Request> steps, bool whole) {
+  stopping_ = std::move(steps);
   stop_open_ = false;
+  stops_whole_ = whole;
+}
+
+void Tether::want_stop() {
+  auto steps = stop_steps();
+  if (!stopping_.empty() && stops_whole_) { // it goes on: begun anew each time it would never end
+    if (!loose_ && stopping_.back().data != steps.back().data) {
+      stopping_.back() = steps.back();
+      stop_open_ = false;
+    }
+  } else
+    begin_stop(std::move(steps), true);
+  // What was not acknowledged does not come back after the stop.
+  std::erase_if(open_, [](const Pending& one) {
+    return one.kind == Kind::Stabilization || one.kind == Kind::Drive;
+  });
   waiting(Kind::Drive).reset();
   waiting(Kind::Stabilization).reset();
   driving_.reset();
@@ -234,12 +252,14 @@ void Tether::drive_motors(vm::Motors motors) {
     return;
   }
   want_stop();
-  stopping_ = {std::move(request)}; // no more: without power it coasts
+  begin_stop({std::move(request)}, false); // no more: without power it coasts
 }
 
 void Tether::obey(const vm::Motion& motion) {
-  if (std::holds_alternative<vm::Stop>(motion))
+  if (std::holds_alternative<vm::Stop>(motion)) {
+    motors_ = {};
     return want_stop();
+  }
   if (const auto* motors = std::get_if<vm::Motors>(&motion))
     return drive_motors(*motors);
   if (const auto* turn = std::get_if<vm::Rotate>(&motion)) {
@@ -250,6 +270,8 @@ void Tether::obey(const vm::Motion& motion) {
   }
   if (const auto* mode = std::get_if<vm::Stabilization>(&motion)) {
     const bool was_stabilized = std::exchange(stabilized_, *mode != vm::Stabilization::Off);
+    if (stabilized_)
+      motors_ = {};
     if (stabilized_ && (loose_ || !was_stabilized))
       return want_stop();
     if (was_stabilized && !stabilized_) { // it rolls on unpowered
@@ -378,6 +400,7 @@ tl::expected<void, LinkError> Tether::send_due() {
 void Tether::stop_acknowledged() {
   stopped_ = winding_up_;
   loose_ = false;
+  refused_.reset();
 }
 
 /// What an answer means for what was asked; the voltage of the battery where that was it.
@@ -390,30 +413,40 @@ std::optional<vm::stimulus::Battery> Tether::take(const Said::Answer& answer) {
   open_.erase(found);
   if (pending.kind == Kind::Other)
     return std::nullopt;
-  const auto kind = static_cast<std::size_t>(pending.kind);
-  if (answer.error == 0) {
-    busy_since_[kind].reset();
-    has_driven_ = has_driven_ || pending.kind == Kind::Drive;
-    if (pending.kind == Kind::Stop && !stopping_.empty() && newest_[kind] == pending.seq) {
-      const bool whole = !wire_->loosens(stopping_.front()) && stopping_.size() == 1;
-      stopping_.pop_front();
-      stop_open_ = false;
-      if (whole)
-        stop_acknowledged();
-    }
-    return pending.kind == Kind::Battery ? wire_->read_battery(answer.data) : std::nullopt;
-  }
-  if (pending.kind == Kind::Battery)
-    return std::nullopt; // it is asked again later
+  auto& busy = busy_[static_cast<std::size_t>(pending.kind)];
   const bool later = wire_->means_later(answer.error);
+  if (answer.error != 0 && pending.kind == Kind::Battery)
+    return std::nullopt; // it is asked again later
   if (later) {
-    busy_since_[kind] = busy_since_[kind].value_or(now());
+    if (!busy || now() - busy->last > 2 * budgets_.answer)
+      busy = Busy{now(), now()};
+    busy->last = now();
     send_again(pending);
+    if (!refused_ && now() - busy->since >= budgets_.busy)
+      refused_ = refusal(pending.request, answer.error);
+    return std::nullopt;
   }
-  const bool for_long = busy_since_[kind] && now() - *busy_since_[kind] >= budgets_.busy;
-  if (!refused_ && (for_long || !later))
+  const bool done = answer.error == 0 || pending.request.need == Request::Need::Try;
+  if (!done && !refused_)
     refused_ = refusal(pending.request, answer.error);
-  return std::nullopt;
+  if (pending.kind == Kind::Stop)
+    take_step(pending, done);
+  if (!done)
+    return std::nullopt;
+  busy.reset();
+  has_driven_ = has_driven_ || pending.kind == Kind::Drive;
+  return pending.kind == Kind::Battery ? wire_->read_battery(answer.data) : std::nullopt;
+}
+
+/// A step of a stop was answered; the next one leaves whatever the answer was.
+void Tether::take_step(const Pending& step, bool done) {
+  if (stopping_.empty() || newest_[static_cast<std::size_t>(Kind::Stop)] != step.seq)
+    return;
+  stopping_.pop_front();
+  stop_open_ = false;
+  stops_whole_ = stops_whole_ && done;
+  if (stopping_.empty() && stops_whole_)
+    stop_acknowledged();
 }
 
 Failure Tether::refusal(const Request& request, std::uint8_t error) const {
@@ -427,7 +460,7 @@ Failure Tether::refusal(const Request& request, std::uint8_t error) const {
 std::optional<Failure> Tether::verdict() const {
   if (refused_)
     return refused_;
-  if (!has_driven_ && busy_since_[static_cast<std::size_t>(Kind::Drive)])
+  if (!has_driven_ && busy_[static_cast<std::size_t>(Kind::Drive)])
     return Failure{ExitCode::Refused,
                    "the robot was busy and took no command that drives it; wait until it has done "
                    "what it does, or switch it off and on"};
@@ -449,6 +482,16 @@ Duration Tether::slept_since(Instant expected) const {
   return late > longest_wait ? late : Duration{};
 }
 
+/// A write over Bluetooth LE takes its time, in which the robot drives and says nothing that is
+/// heard; only a very long one is a pause.
+void Tether::notice_slow_write() {
+  constexpr Duration longest_write = 1500ms;
+  const auto took = now() - looked_at_;
+  if (took > longest_write)
+    slept_ += took;
+  looked_at_ = now();
+}
+
 void Tether::notice_pause(Instant expected) {
   const auto slept = slept_since(expected);
   slept_ += slept;
@@ -461,6 +504,7 @@ tl::expected<void, Failure> Tether::pump(Instant deadline,
   notice_pause(looked_at_);
   if (auto sent = send_due(); !sent)
     return tl::unexpected(lost(sent.error()));
+  notice_slow_write();
   const auto wait = std::min(
       {deadline, std::max(now(), next_due()), stale_ ? never : sample_at_ + budgets_.stale});
   auto bytes = transport_->read(wait);
@@ -510,6 +554,7 @@ void Tether::relink(protocol::Transport& transport) {
   wire_->feed({});
   open_.clear();
   stop_open_ = false;
+  link_lost_ = false;
 }
 
 /// Sends the request, once at least, until it is acknowledged, `until` passes or the link is lost.
@@ -519,17 +564,19 @@ bool Tether::acknowledges(const Request& request, Instant until,
     const auto seq = seq_;
     // An interruption is noticed once; what follows goes through.
     if (auto sent = send(request, Kind::Stop); !sent) {
-      if (sent.error().kind != LinkError::Kind::Interrupted)
-        return false;
-      continue;
+      if (sent.error().kind == LinkError::Kind::Interrupted)
+        continue;
+      link_lost_ = true;
+      return false;
     }
     const auto wait = std::min(until, now() + budgets_.answer);
     while (now() < wait) {
       auto bytes = transport_->read(wait);
       if (!bytes) {
-        if (bytes.error().kind != LinkError::Kind::Interrupted)
-          return false;
-        continue;
+        if (bytes.error().kind == LinkError::Kind::Interrupted)
+          continue;
+        link_lost_ = true;
+        return false;
       }
       wire_->feed(*bytes);
       while (const auto said = wire_->next()) {
@@ -538,12 +585,11 @@ bool Tether::acknowledges(const Request& request, Instant until,
           hear(*said);
         if (answer == nullptr || answer->seq != seq)
           continue;
-        if (answer->error == 0) {
-          refused_.reset();
+        const bool later = wire_->means_later(answer->error);
+        if (answer->error == 0 || (!later && request.need == Request::Need::Try))
           return true;
-        }
         refused_ = refusal(request, answer->error);
-        if (!wire_->means_later(answer->error))
+        if (!later)
           return false;
       }
     }

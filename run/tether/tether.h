@@ -87,6 +87,8 @@ public:
   /// Why the run was no success, where only its end tells: the robot was busy all the time.
   std::optional<Failure> verdict() const;
 
+  /// Whether the link broke while the robot was to be stopped.
+  bool link_lost() const { return link_lost_; }
   /// From now on the link is this one: the old one was lost.
   void relink(protocol::Transport& transport);
   /// The same as finish(), bit by bit for who may not wait: pump() brakes the robot, then puts it
@@ -120,6 +122,12 @@ private:
     Kind kind = Kind::Other;
   };
 
+  /// It answers `busy` to requests of a kind.
+  struct Busy {
+    Instant since;
+    Instant last;
+  };
+
   std::optional<Request>& waiting(Kind kind) { return waiting_[static_cast<std::size_t>(kind)]; }
   bool waits(Kind kind) const { return waiting_[static_cast<std::size_t>(kind)].has_value(); }
   bool may_leave(Kind kind) const;
@@ -137,7 +145,9 @@ private:
   void await_rest(const std::function<void(const Said&)>& hear);
   void watch_samples();
   std::deque<Request> stop_steps();
+  void begin_stop(std::deque<Request> steps, bool whole);
   void want_stop();
+  void take_step(const Pending& step, bool done);
   void resume(std::optional<Request> drive);
   void drive_motors(vm::Motors motors);
   bool acknowledges(const Request& request, Instant until,
@@ -145,6 +155,7 @@ private:
   void stop_acknowledged();
   Duration slept_since(Instant expected) const;
   void notice_pause(Instant expected);
+  void notice_slow_write();
   Failure refusal(const Request& request, std::uint8_t error) const;
   Failure lost(const protocol::LinkError& error) const;
 
@@ -155,11 +166,13 @@ private:
   Streamed streamed_;
   std::uint8_t seq_ = 0;
 
-  std::array<std::optional<Request>, kinds> waiting_;      ///< to leave
-  std::array<std::uint8_t, kinds> newest_{};               ///< sequence number of the newest sent
-  std::array<std::optional<Instant>, kinds> busy_since_{}; ///< for so long it takes none of them
-  std::deque<Request> stopping_;   ///< steps of a stop: each leaves once the last is acknowledged
-  bool stop_open_ = false;         ///< the first of them has been sent and not been answered
+  std::array<std::optional<Request>, kinds> waiting_; ///< to leave
+  std::array<std::uint8_t, kinds> newest_{};          ///< sequence number of the newest sent
+  std::array<std::optional<Busy>, kinds> busy_{};
+  std::deque<Request> stopping_; ///< steps of a stop: each leaves once the last is acknowledged
+  bool stop_open_ = false;       ///< the first of them has been sent and not been answered
+  bool stops_whole_ = false;     ///< the steps end with the roll of 0, and none was refused
+  bool link_lost_ = false;
   std::optional<Request> driving_; ///< the last that left and keeps it moving: repeated
   std::deque<Request> parting_;    ///< to be sent after the brake
   bool winding_up_ = false;

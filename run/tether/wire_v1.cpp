@@ -6,6 +6,7 @@
 #include "spec/ball.h"
 #include "spec/unit.h"
 #include "uploader/session.h"
+#include "vm/body/angles.h"
 
 #include <cmath>
 #include <fmt/format.h>
@@ -99,8 +100,7 @@ std::optional<vm::Sample> read_frame(ByteView data, const Streamed& streamed, sp
   sample.place_cm = from_axes(axes, sample.place_cm);
   const auto velocity = vm::from_axes(axes, {sample.velocity_cm_s.x, sample.velocity_cm_s.y});
   sample.velocity_cm_s = {velocity.x, velocity.y};
-  if (sample.yaw_deg < 0)
-    sample.yaw_deg += spec::ball::full_circle;
+  sample.yaw_deg = vm::wrap_360(sample.yaw_deg);
   return at == data.size() ? std::optional(sample) : std::nullopt;
 }
 

@@ -2,6 +2,7 @@
 
 #include "protocol/payload_v2.h"
 #include "run/tether/wire_v1.h"
+#include "vm/body/angles.h"
 
 #include <algorithm>
 #include <bit>
@@ -18,7 +19,6 @@ using spec::V2Sensor;
 using spec::V2Service;
 
 constexpr double cm_per_m = 100;
-constexpr double full_turn = 360;
 
 constexpr V2Service useful_services[] = {V2Service::Attitude, V2Service::Accel, V2Service::Gyro,
                                          V2Service::Locator, V2Service::Velocity};
@@ -57,7 +57,7 @@ void take(vm::Sample& sample, V2Sensor sensor, double value) {
   switch (sensor) {
   case V2Sensor::Pitch: sample.pitch_deg = value; break;
   case V2Sensor::Roll: sample.roll_deg = value; break;
-  case V2Sensor::Yaw: sample.yaw_deg = std::fmod(value + 2 * full_turn, full_turn); break;
+  case V2Sensor::Yaw: sample.yaw_deg = vm::wrap_360(value); break;
   case V2Sensor::AccelX: sample.acceleration_g.x = value; break;
   case V2Sensor::AccelY: sample.acceleration_g.y = value; break;
   case V2Sensor::AccelZ: sample.acceleration_g.z = value; break;
@@ -133,6 +133,7 @@ public:
   void hear_setup(const Request& request, const std::optional<Bytes>& answer) override {
     senses_ = senses_ || (is(request, V2Command::CollisionDetection) && !answer &&
                           knows(V2Command::CollisionSense));
+    stabilizes_ = stabilizes_ && (!is(request, V2Command::Stabilize) || answer);
   }
   std::vector<Request> setup_more() const override;
   std::vector<Request> setup(Aim aim) const override;
@@ -188,7 +189,8 @@ private:
 
   const spec::RobotInfo& robot_;
   CollisionLimits limits_;
-  bool senses_ = false; ///< collisions by the way of a BOLT+
+  bool senses_ = false;    ///< collisions by the way of a BOLT+
+  bool stabilizes_ = true; ///< by the way of a BOLT+, where the robot knows it
   protocol::DecoderV2 decoder_;
   Streamed streamed_; ///< what it streams
 };
@@ -305,14 +307,14 @@ std::vector<Request> WireV2::setup(Aim aim) const {
 
 /// Nothing for a robot that always keeps it.
 std::optional<Request> WireV2::stabilization(std::uint8_t mode) const {
-  if (knows(V2Command::Stabilize)) {
-    auto one = request(V2Command::Stabilize, {mode});
-    one.need = Request::Need::Try; // one source
-    return one;
-  }
-  if (knows(V2Command::SetStabilization))
-    return request(V2Command::SetStabilization, {mode});
-  return std::nullopt;
+  if (!knows(V2Command::SetStabilization))
+    return std::nullopt;
+  const bool knows_other = knows(V2Command::Stabilize);
+  auto one = request(
+      knows_other && stabilizes_ ? V2Command::Stabilize : V2Command::SetStabilization, {mode});
+  if (knows_other) // sources differ on which it takes
+    one.need = Request::Need::Try;
+  return one;
 }
 
 std::optional<Request> WireV2::collisions(Bytes operands) const {
@@ -325,12 +327,16 @@ std::optional<Request> WireV2::collisions(Bytes operands) const {
 
 /// Sources differ on how a BOLT+ detects collisions: what it refuses it is not asked for again.
 std::vector<Request> WireV2::setup_more() const {
-  if (!senses_)
-    return {};
+  std::vector<Request> all;
+  if (!stabilizes_)
+    if (const auto on = stabilization(1))
+      all.push_back(*on);
   constexpr std::uint8_t medium = 3;
   constexpr std::uint8_t dead_time_ms = 200;
-  std::vector<Request> all{request(V2Command::CollisionSense, {0, medium, 0, dead_time_ms}),
-                           request(V2Command::CollisionSenseNotify, {1})};
+  if (senses_) {
+    all.push_back(request(V2Command::CollisionSense, {0, medium, 0, dead_time_ms}));
+    all.push_back(request(V2Command::CollisionSenseNotify, {1}));
+  }
   for (auto& one : all)
     one.need = Request::Need::Try;
   return all;

@@ -19,6 +19,7 @@ namespace orb::test {
 struct Seen {
   bool is_roll = false;
   bool is_raw = false;
+  bool switches_off = false; ///< the stabilization
   bool is_sample = false;
   int speed = 0; ///< of a roll
   int heading_deg = 0;
@@ -62,6 +63,7 @@ private:
       return item.did == spec::did(command) && item.cid == spec::cid(command);
     };
     one.is_raw = is(spec::ApiCommand::SetRawMotorValues);
+    one.switches_off = is(spec::ApiCommand::SetStabilization) && item.data[0] == 0;
     one.is_roll = is(spec::ApiCommand::Roll);
     if (one.is_roll) {
       one.speed = item.data[0];
@@ -85,6 +87,8 @@ private:
       return one;
     const auto* row = spec::find_v2_command(packet.did, packet.cid);
     one.is_raw = row != nullptr && row->command == spec::V2Command::RawMotors;
+    one.switches_off =
+        row != nullptr && row->command == spec::V2Command::SetStabilization && packet.data[0] == 0;
     one.is_roll = row != nullptr && row->command == spec::V2Command::DriveWithHeading;
     if (one.is_roll) {
       one.speed = packet.data[0];
@@ -111,6 +115,22 @@ public:
 
 protected:
   protocol::Transport& inner_;
+};
+
+/// The first command that switches stabilization off is lost.
+class LosingLink final : public PassingLink {
+public:
+  using PassingLink::PassingLink;
+  tl::expected<void, protocol::LinkError> write(ByteView bytes) override {
+    for (const auto& one : told_.see(bytes))
+      if (one.switches_off && !lost)
+        return lost = true, tl::expected<void, protocol::LinkError>{};
+    return inner_.write(bytes);
+  }
+  bool lost = false;
+
+private:
+  Watcher told_{protocol::Direction::ToBall};
 };
 
 /// Somebody presses Ctrl-C at an instant.

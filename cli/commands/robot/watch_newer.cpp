@@ -74,7 +74,7 @@ public:
   tl::expected<void, Failure> begin() {
     auto asked = ask_all({request(spec::V2Command::Wake)});
     if (asked)
-      asked = ask_all(collisions(wire_->setup(run::Aim::Keep)));
+      asked = detect_collisions();
     return asked ? ask_all(wire_->stream({})) : asked;
   }
   Watch(const Watch&) = delete;
@@ -118,12 +118,25 @@ private:
     return {};
   }
 
+  /// By what the robot takes.
+  tl::expected<void, Failure> detect_collisions() {
+    for (const auto& one : collisions(wire_->setup(run::Aim::Keep))) {
+      const auto answer = ask(one);
+      if (!answer)
+        return tl::unexpected(answer.error());
+      wire_->hear_setup(one, *answer);
+    }
+    return ask_all(wire_->setup_more());
+  }
+
   tl::expected<void, Failure> ask_battery() {
     battery_at_ = now() + between_batteries;
-    const auto answer = ask(wire_->ask_battery());
+    auto request = wire_->ask_battery();
+    request.need = run::Request::Need::Try; // it may be busy: it is asked again
+    const auto answer = ask(request);
     if (!answer)
       return tl::unexpected(answer.error());
-    const auto battery = wire_->read_battery(*answer);
+    const auto battery = wire_->read_battery(answer->value_or(Bytes{}));
     if (battery && battery->volts != volts_) {
       volts_ = battery->volts;
       print_.battery(*battery);
@@ -132,7 +145,7 @@ private:
   }
 
   /// Sends until it is answered; a refusal of what can be done without is no failure.
-  tl::expected<Bytes, Failure> ask(const run::Request& request) {
+  tl::expected<std::optional<Bytes>, Failure> ask(const run::Request& request) {
     constexpr int attempts = 3;
     constexpr Duration patience = 700ms;
     for (int attempt = 0; attempt < attempts; ++attempt) {
@@ -145,8 +158,10 @@ private:
           return tl::unexpected(heard.error());
         if (!answer_ || answer_->seq != seq)
           continue;
-        if (answer_->error == 0 || request.need == run::Request::Need::Try)
-          return answer_->error == 0 ? answer_->data : Bytes{};
+        if (answer_->error == 0)
+          return std::optional(answer_->data);
+        if (request.need == run::Request::Need::Try)
+          return std::nullopt;
         return tl::unexpected(Failure{
             ExitCode::Refused, fmt::format("the robot refuses {}: {}", wire_->name_of(request),
                                            wire_->describe(answer_->error))});

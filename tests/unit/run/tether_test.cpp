@@ -253,6 +253,51 @@ TEST(Tether, AMotorThatIsIgnoredGoesOn) {
   EXPECT_GT(speed, 10) << "and rolls again";
 }
 
+TEST(Tether, WhatWasLostBeforeAStopDoesNotComeBackAfterIt) {
+  for (const auto which : {spec::Robot::Sphero, spec::Robot::Mini}) {
+    Robot robot(which);
+    test::LosingLink link(*robot.link);
+    Heard heard;
+    const auto driven =
+        run_over(link, which,
+                 "10 delay 500\n20 ctrl = 0\n30 delay 150\n40 ctrl = 1\n50 delay 1500\n"
+                 "60 goroll 0,90,1\n70 delay 1500\n",
+                 heard);
+    ASSERT_TRUE(driven && !driven->failure);
+    ASSERT_TRUE(link.lost);
+    EXPECT_TRUE(robot.ball->body().stabilized());
+    EXPECT_EQ(heard.faults, 0);
+    EXPECT_GT(driven->ending.sight.pose.y_cm, 20) << "it did not roll";
+  }
+}
+
+TEST(Tether, AStopThatIsWantedAgainAndAgainComesToItsEnd) {
+  for (const auto& row : spec::robots) {
+    Robot robot(row.robot);
+    Heard heard;
+    Options bounds;
+    bounds.bound = 6s;
+    const auto inputs = test::program_of("10 raw 1,100,1,100\n20 delay 1000\n30 ctrl = 1\n"
+                                         "40 goroll 90,80,1\n50 delay 5\n60 goto 30\n");
+    TetherOptions options;
+    options.robot = row.robot;
+    const auto driven = run_tethered(inputs, bounds, heard, nullptr, *robot.link, options);
+    ASSERT_TRUE(driven && !driven->failure) << row.name;
+    EXPECT_GT(driven->ending.sight.pose.x_cm, 30) << row.name << " never rolled";
+  }
+}
+
+TEST(Tether, AMotorThatWasSwitchedOffStaysOff) {
+  Robot robot(spec::Robot::Mini);
+  Heard heard;
+  const auto driven = run_on(robot, spec::Robot::Mini,
+                             "10 raw 1,120,1,120\n20 delay 300\n30 ctrl = 1\n40 delay 900\n"
+                             "50 raw 4,0,1,60\n60 delay 500\n70 print yaw\n",
+                             heard);
+  ASSERT_TRUE(driven && !driven->failure);
+  EXPECT_GT(std::stoi(heard.prints), 180) << "only the right wheel drives: it turns to the left";
+}
+
 /// A line of a stimulus script.
 void happens(Robot& robot, const std::string& line) {
   const Source source("test", line);
