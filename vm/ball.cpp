@@ -32,8 +32,9 @@ Ball::Ball(const BallOptions& options)
       dispatcher_(asks_->of_client, options.seed, options.firmware) {
   body_.observe(options.steps);
   const auto battery = spec::battery(options.robot);
-  settings_.low_battery_cv = static_cast<int>(std::lround(battery.low * 100));
-  settings_.critical_battery_cv = static_cast<int>(std::lround(battery.critical * 100));
+  constexpr double hundredths = 100; // of a volt
+  settings_.low_battery_cv = static_cast<int>(std::lround(battery.low * hundredths));
+  settings_.critical_battery_cv = static_cast<int>(std::lround(battery.critical * hundredths));
 }
 
 Ball::Ball(const Ball& other)

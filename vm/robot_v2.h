@@ -110,7 +110,7 @@ private:
   std::string name_; ///< that a client gave it
   double head_deg_ = 0;
   std::uint8_t legs_ = 2;
-  std::uint8_t volume_ = 255;
+  std::uint8_t volume_ = UINT8_MAX;
   Instant drives_until_ = never;
   std::array<std::uint8_t, 32> lamps_{};
   Matrix matrix_; ///< of robots that have none it stays dark

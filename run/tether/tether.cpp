@@ -274,6 +274,8 @@ void Tether::obey(const vm::Motion& motion) {
       motors_ = {};
     if (stabilized_ && (loose_ || !was_stabilized))
       return want_stop();
+    if (was_stabilized == stabilized_ && *mode != vm::Stabilization::OnAndReset)
+      return; // said again and again it would leave nothing else a turn
     if (was_stabilized && !stabilized_) { // it rolls on unpowered
       waiting(Kind::Drive).reset();
       driving_.reset();
