@@ -26,8 +26,6 @@ struct Seen {
   Bytes raw;
   std::uint8_t seq = 0;
   std::optional<protocol::PacketV2> v2;
-
-  bool drives() const { return is_roll || is_raw; }
 };
 
 /// What the bytes of one direction hold, packet by packet.
@@ -215,13 +213,14 @@ private:
   Watcher told_{protocol::Direction::ToBall};
 };
 
-/// The robot answers `busy` to whatever drives it, and does nothing.
+/// The robot answers `busy` to raw motors and to rolls of that speed or more, and does nothing.
 class BusyLink final : public PassingLink {
 public:
-  using PassingLink::PassingLink;
+  BusyLink(protocol::Transport& inner, int least_speed)
+      : PassingLink(inner), least_speed_(least_speed) {}
   tl::expected<void, protocol::LinkError> write(ByteView bytes) override {
     for (const auto& one : told_.see(bytes))
-      if (one.drives()) {
+      if (one.is_raw || (one.is_roll && one.speed >= least_speed_)) {
         const auto answer = busy(one);
         answers_.insert(answers_.end(), answer.begin(), answer.end());
         return {};
@@ -248,6 +247,7 @@ private:
     return encode(answer);
   }
 
+  int least_speed_;
   Watcher told_{protocol::Direction::ToBall};
   Bytes answers_;
 };
