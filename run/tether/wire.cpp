@@ -1,6 +1,14 @@
 #include "run/tether/wire.h"
 
+#include <fmt/format.h>
+
 namespace orb::run {
+
+std::string RobotWire::name_of(const Request& request) const {
+  const auto name = command_name(request);
+  return fmt::format("{} ({:02X}h {:02X}h)", name.empty() ? "a command" : name, request.did,
+                     request.cid);
+}
 
 Bytes CollisionLimits::operands() const {
   constexpr std::uint8_t dead_time = 20; // of 10 ms

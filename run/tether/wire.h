@@ -11,6 +11,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -97,10 +98,14 @@ public:
 
   virtual Duration interval() const = 0;
   /// `drive-with-heading (16h 07h)`
-  virtual std::string name_of(const Request& request) const = 0;
+  std::string name_of(const Request& request) const;
   /// `busy`, `bad length`, as the robot's tables say it.
   virtual std::string describe(std::uint8_t error) const = 0;
   virtual bool means_later(std::uint8_t error) const = 0;
+
+private:
+  /// As its row has it; empty where no row does.
+  virtual std::string_view command_name(const Request& request) const = 0;
 };
 
 std::unique_ptr<RobotWire> make_wire(spec::Robot robot, CollisionLimits limits = {});

@@ -9,7 +9,6 @@
 #include "vm/body/angles.h"
 
 #include <cmath>
-#include <fmt/format.h>
 
 namespace orb::run {
 namespace {
@@ -159,10 +158,9 @@ public:
     return is(request, ApiCommand::SetRawMotorValues) ||
            (is(request, ApiCommand::SetStabilization) && request.data.front() == 0);
   }
-  std::string name_of(const Request& request) const override {
+  std::string_view command_name(const Request& request) const override {
     const auto* row = spec::find_command(request.did, request.cid);
-    return fmt::format("{} ({:02X}h {:02X}h)", row == nullptr ? "a command" : row->name,
-                       request.did, request.cid);
+    return row == nullptr ? std::string_view() : row->name;
   }
   Duration interval() const override { return spec::info(robot_).interval; }
   std::string describe(std::uint8_t error) const override { return uploader::describe_code(error); }

@@ -159,10 +159,9 @@ public:
            ((is(request, V2Command::SetStabilization) || is(request, V2Command::Stabilize)) &&
             request.data.front() == 0);
   }
-  std::string name_of(const Request& request) const override {
+  std::string_view command_name(const Request& request) const override {
     const auto* row = spec::find_v2_command(request.did, request.cid);
-    return fmt::format("{} ({:02X}h {:02X}h)", row == nullptr ? "a command" : row->name,
-                       request.did, request.cid);
+    return row == nullptr ? std::string_view() : row->name;
   }
   Duration interval() const override { return robot_.interval; }
   std::string describe(std::uint8_t error) const override {
