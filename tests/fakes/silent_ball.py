@@ -1,6 +1,7 @@
 """silent_ball.py COUNT...: a ball that answers so many packets on a TCP port and is then silent.
 
-It prints the port, then serves one client per COUNT, and ends.
+It prints the port, then serves one client per COUNT, and ends. Of each client it says when it left the first packet
+unanswered.
 """
 
 import socket
@@ -33,6 +34,8 @@ def serve(client: socket.socket, count: int) -> None:
             heard = heard[HEADER + size :]
             if count > 0:
                 client.sendall(packet(seq, bytes.fromhex(ANSWERS.get((did, cid), ""))))
+            elif count == 0:
+                print("silent", flush=True)
             count -= 1
 
 
