@@ -27,26 +27,39 @@ set(headers_std <algorithm> <array> <charconv> <chrono> <cmath> <cstdint> <deque
 orb_precompiled(rooms LIBRARIES fmt::fmt HEADERS ${headers_std})
 orb_precompiled(json_rooms LIBRARIES fmt::fmt nlohmann_json::nlohmann_json HEADERS ${headers_std} <nlohmann/json.hpp>)
 
-option(ORB_JOIN "Compile up to 32 files of a folder together: less than half the time from nothing" OFF)
+option(ORB_JOIN "Compile the files of a room together: a third of the time from nothing" OFF)
 if(ORB_JOIN AND CMAKE_CXX_COMPILER_ID STREQUAL GNU)
   # gcc tidies up its memory again and again from some 100 MB on, which takes a sixth of the time of long units.
   target_compile_options(orb_options INTERFACE --param=ggc-min-heapsize=500000)
 endif()
 
-# orb_join(<target>): with ORB_JOIN, files of one folder are compiled together, up to thirty-two at a time. They see each
-# other's private names, so a folder has no such name twice. A file with options of its own stays alone.
+# With ORB_DEMO, what the demo does not show is not compiled; cli/commands/left_out.cpp stands for its commands.
+set(ORB_NOT_SHOWN "cli/commands/(completion|decode|disasm|encode|fmt|lift|man|spec|test)\\.cpp"
+  "cli/commands/robot/(abort|calibrate|checkup|commit|doctor|drive|erase|exec|info)\\.cpp" cli/editors/
+  reference/cheatsheet reference/manual "run/calibrate/(course|fit)" serve/page_server
+  structured/lift/ testing/judge testing/replay testing/results testing/run_ testing/sighting testing/verdicts/)
+# Joined by themselves: folders whose private names the rest of their room has too, and those that the demo leaves out.
+set(ORB_APART editor/dap editor/languages/basic editor/languages/macro editor/languages/structured editor/languages/test
+  editor/lsp run/calibrate structured/lift testing/text testing/verdicts vm/api vm/machine vm/macros vm/native)
+
+# orb_join(<target>): with ORB_JOIN, the files of one room are compiled together, up to forty at a time. They see each
+# other's private names, so a room has no such name twice. A file with options of its own stays alone.
 function(orb_join target)
   if(NOT ORB_JOIN)
     return()
   endif()
   get_target_property(sources ${target} SOURCES)
   foreach(source IN LISTS sources)
-    cmake_path(GET source PARENT_PATH folder)
-    cmake_path(RELATIVE_PATH folder BASE_DIRECTORY ${ORB_ROOT})
-    string(REPLACE "/" "_" folder "${folder}")
-    math(EXPR group "(0${count_${folder}}) / 32")
-    math(EXPR count_${folder} "0${count_${folder}} + 1")
-    set_source_files_properties(${source} PROPERTIES UNITY_GROUP ${folder}_${group})
+    cmake_path(RELATIVE_PATH source BASE_DIRECTORY ${ORB_ROOT})
+    set(group ${target})
+    foreach(folder IN LISTS ORB_APART)
+      if(source MATCHES "^${folder}/")
+        string(REPLACE "/" "_" group ${folder})
+      endif()
+    endforeach()
+    math(EXPR part "(0${count_${group}}) / 40")
+    math(EXPR count_${group} "0${count_${group}} + 1")
+    set_source_files_properties(${ORB_ROOT}/${source} PROPERTIES UNITY_GROUP ${group}_${part})
   endforeach()
   # Two warnings are for files alone: here a name of another file may be hidden, and no file is the main one.
   set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP UNITY_BUILD_CODE_BEFORE_INCLUDE
@@ -64,6 +77,11 @@ function(orb_library folder)
     list(TRANSFORM windows REPLACE "_windows\\.cpp$" ".cpp")
   endif()
   list(REMOVE_ITEM sources "" ${windows})
+  if(ORB_DEMO)
+    foreach(path IN LISTS ORB_NOT_SHOWN)
+      list(FILTER sources EXCLUDE REGEX "^${ORB_ROOT}/${path}")
+    endforeach()
+  endif()
   set(kind rooms)
   if(ARG_JSON)
     set(kind json_rooms)

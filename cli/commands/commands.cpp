@@ -27,12 +27,12 @@ std::string version(const Command& orb) {
   return text;
 }
 
-struct Row {
+struct CommandRow {
   std::string_view name;
   void (*add)(const Command&, Context&);
 };
 
-constexpr auto commands = std::to_array<Row>({
+constexpr auto commands = std::to_array<CommandRow>({
     {"abort", add_abort},
     {"asm", add_asm},
     {"ball", add_ball},
@@ -96,7 +96,7 @@ std::unique_ptr<CommandLine> all_commands(Context& context) {
 
 std::unique_ptr<CommandLine> only_command(Context& context, std::string_view word) {
   const auto* const row = std::find_if(commands.begin(), commands.end(),
-                                       [&](const Row& one) { return one.name == word; });
+                                       [&](const CommandRow& one) { return one.name == word; });
   if (row == commands.end() || row->add == add_explain || row->add == add_man)
     return nullptr; // those two tell of all commands
   auto line = frame(context);

@@ -14,10 +14,9 @@
 namespace orb::cli {
 namespace {
 
-using reference::Section;
-
 /// The word as it is written, else in any case, else as an option without its dashes.
-std::string explain(const std::vector<Section>& sections, Style style, const std::string& word) {
+std::string explain(const std::vector<reference::Section>& sections, Style style,
+                    const std::string& word) {
   using reference::print_entries;
   auto found = print_entries(sections, style, [&](const auto& name) { return name == word; });
   if (found.empty())
@@ -31,7 +30,7 @@ std::string explain(const std::vector<Section>& sections, Style style, const std
 
 /// Whether a statement can begin with the word: sensors and stimuli are also called what other
 /// languages call their statements (`roll`, `spin`).
-bool begins_statements(const std::vector<Section>& sections, const std::string& word) {
+bool begins_statements(const std::vector<reference::Section>& sections, const std::string& word) {
   const auto is_it = [&](const std::string& name) { return equal_words(name, word); };
   for (const auto& section : sections)
     for (const auto& entry : section.entries)
@@ -41,7 +40,7 @@ bool begins_statements(const std::vector<Section>& sections, const std::string& 
   return false;
 }
 
-std::vector<std::string> all_names(const std::vector<Section>& sections) {
+std::vector<std::string> all_names(const std::vector<reference::Section>& sections) {
   std::vector<std::string> names;
   for (const auto& section : sections)
     for (const auto& entry : section.entries) {

@@ -17,7 +17,7 @@
 namespace orb::cli {
 namespace {
 
-constexpr int most_jobs = 1000;
+constexpr int most_at_once = 1000;
 constexpr int most_tries = 1000;
 
 void add_rest(const Command& command, RosterOptions& options, const std::string& jobs) {
@@ -26,7 +26,7 @@ void add_rest(const Command& command, RosterOptions& options, const std::string&
                   "a file of robots (`[balls]`, `[groups]`): all of them, or those named by --port")
       .type_name("FILE");
   command.add_option("--jobs", options.jobs, "how many robots at a time")
-      .check(whole_number(1, most_jobs))
+      .check(whole_number(1, most_at_once))
       .type_name("N")
       .show_default(jobs);
   command

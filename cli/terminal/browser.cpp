@@ -17,11 +17,11 @@ namespace orb::cli {
 namespace {
 
 /// So long a command may take to fail. A browser that was not running yet goes on for longer.
-constexpr timespec patience{2, 0};
+constexpr timespec opening_time{2, 0};
 
 using Words = std::vector<std::string>;
 
-std::vector<Words> commands(const std::string& file) {
+std::vector<Words> openers(const std::string& file) {
   const char* set = std::getenv("BROWSER");
   std::vector<Words> list;
   std::istringstream choices(set != nullptr ? set : "");
@@ -49,7 +49,7 @@ std::optional<int> soon_ended(pid_t process, const sigset_t& child_ends) {
   int status = 0;
   if (::waitpid(process, &status, WNOHANG) != 0)
     return status;
-  ::sigtimedwait(&child_ends, nullptr, &patience);
+  ::sigtimedwait(&child_ends, nullptr, &opening_time);
   return ::waitpid(process, &status, WNOHANG) != 0 ? std::optional(status) : std::nullopt;
 }
 
@@ -91,7 +91,7 @@ bool start(const Words& words) {
 tl::expected<void, std::string> show_in_browser(const std::string& path) {
   std::error_code ignored;
   const auto file = std::filesystem::absolute(path, ignored).string();
-  for (const auto& command : commands(file))
+  for (const auto& command : openers(file))
     if (start(command))
       return {};
   return tl::unexpected(fmt::format("no browser could be started: install xdg-utils, or name one "

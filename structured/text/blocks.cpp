@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t deepest = 64;
 
-struct Block {
+struct OpenBlock {
   Kind opener;
   Kind end;
   std::string_view word; ///< of the opener
@@ -27,7 +27,7 @@ struct Block {
   }
 };
 
-constexpr auto blocks = std::to_array<Block>({
+constexpr auto blocks = std::to_array<OpenBlock>({
     {Kind::If, Kind::EndIf, "if", "end if"},
     {Kind::While, Kind::EndWhile, "while", "end while"},
     {Kind::Repeat, Kind::Until, "repeat", "until"},
@@ -39,7 +39,7 @@ constexpr auto blocks = std::to_array<Block>({
     {Kind::Function, Kind::EndFunction, "function", "end function"},
 });
 
-const Block* by_opener(Kind kind) {
+const OpenBlock* by_opener(Kind kind) {
   for (const auto& block : blocks)
     if (block.opener == kind)
       return &block;
@@ -130,7 +130,7 @@ private:
     pop();
   }
 
-  void report_unclosed(std::uint32_t i, const Block& block) {
+  void report_unclosed(std::uint32_t i, const OpenBlock& block) {
     const auto where = program_.statements[i].word;
     const auto word = std::string(program_.text_of(where));
     const auto end = fmt::format("`{}` after its last line", block.end_words);
@@ -152,7 +152,7 @@ private:
 
   /// Where a block ends that nothing closes: at a bare `end` right under its word, or where lines
   /// are no longer indented.
-  void offer_end(std::uint32_t i, const Block& block, Diagnostic& d) const {
+  void offer_end(std::uint32_t i, const OpenBlock& block, Diagnostic& d) const {
     const auto column = column_of(i);
     std::uint32_t last = none;
     for (auto j = i + 1; j < file_.statements_end; ++j) {
@@ -381,7 +381,7 @@ std::vector<std::string_view> words_after_end() {
 }
 
 bool is_loop_word(std::string_view word) {
-  return std::any_of(blocks.begin(), blocks.end(), [&](const Block& block) {
+  return std::any_of(blocks.begin(), blocks.end(), [&](const OpenBlock& block) {
     return is_loop(block.opener) && equal_words(block.word, word);
   });
 }
@@ -396,7 +396,7 @@ bool parts_block(Kind kind) {
 
 bool closes_block(Kind kind) {
   return std::any_of(blocks.begin(), blocks.end(),
-                     [&](const Block& block) { return block.end == kind; });
+                     [&](const OpenBlock& block) { return block.end == kind; });
 }
 
 bool is_loop(Kind kind) {

@@ -21,7 +21,7 @@ std::optional<Verdict> verdict_called(std::string_view word) {
 }
 
 /// Reads members of objects; remembers whether one was missing or of another kind.
-class Reader {
+class ResultsReader {
 public:
   bool good() const { return good_; }
 
@@ -129,7 +129,7 @@ tl::expected<Part, Failure> read_results(std::string name, std::string_view text
   const auto json = Value::parse(text, nullptr, false);
   if (!json.is_object() || json.value("schema", Value()) != "orb.test/1")
     return wrong();
-  Reader reader;
+  ResultsReader reader;
   Results results;
   results.cases = reader.count(json, "cases");
   if (json.contains("shards"))
