@@ -1,8 +1,8 @@
-// Stands for the rest of this folder in the program that ./dev demo builds first: the editors'
-// rooms and the debugger are a quarter of what there is to compile, and the demo shows neither.
+// Stands for the commands that ./dev demo does not show, in the program that it builds first: with
+// what they need they are more than half of what there is to compile.
 
+#include "cli/commands/commands.h"
 #include "cli/editors/commands.h"
-#include "cli/editors/word_lists.h"
 
 #include <fmt/format.h>
 #include <string>
@@ -10,36 +10,44 @@
 namespace orb::cli {
 namespace {
 
-void say_left_out(Context& context, const std::string& command) {
-  print_error(context, fmt::format("`{}` is left out of this program, which `./dev demo` "
-                                   "built; `./dev build orb` builds the full one",
-                                   command));
-  context.exit = ExitCode::Usage;
-}
-
 void add_left_out(const Command& orb, Context& context, const std::string& name) {
   const auto command = orb.add_command(
       name, "left out by ./dev demo; ./dev build orb builds the full program", "./dev build orb");
   command.any_words();
-  command.callback([&context, name] { say_left_out(context, "orb " + name); });
+  command.callback([&context, name] {
+    print_error(context, fmt::format("`orb {}` is left out of this program, which `./dev demo` "
+                                     "built; `./dev build orb` builds the full one",
+                                     name));
+    context.exit = ExitCode::Usage;
+  });
 }
 
 } // namespace
 
-void add_dap(const Command& orb, Context& context) {
-  add_left_out(orb, context, "dap");
-}
-
-void add_debug(const Command& orb, Context& context) {
-  add_left_out(orb, context, "debug");
-}
-
-void add_lsp(const Command& orb, Context& context) {
-  add_left_out(orb, context, "lsp");
-}
-
-void write_editor_files(Context& context, const std::string& /*folder*/) {
-  say_left_out(context, "orb spec --editors");
-}
+#define LEFT_OUT(name)                                                                             \
+  void add_##name(const Command& orb, Context& context) {                                          \
+    add_left_out(orb, context, #name);                                                             \
+  }
+LEFT_OUT(abort)
+LEFT_OUT(calibrate)
+LEFT_OUT(commit)
+LEFT_OUT(completion)
+LEFT_OUT(dap)
+LEFT_OUT(debug)
+LEFT_OUT(decode)
+LEFT_OUT(disasm)
+LEFT_OUT(doctor)
+LEFT_OUT(drive)
+LEFT_OUT(encode)
+LEFT_OUT(erase)
+LEFT_OUT(exec)
+LEFT_OUT(fmt)
+LEFT_OUT(info)
+LEFT_OUT(lift)
+LEFT_OUT(lsp)
+LEFT_OUT(man)
+LEFT_OUT(spec)
+LEFT_OUT(test)
+#undef LEFT_OUT
 
 } // namespace orb::cli
