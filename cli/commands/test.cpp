@@ -344,7 +344,8 @@ tl::expected<void, Failure> add_programs(const TestOptions& options,
   for (const auto& file : tests)
     stems.insert(std::string(stem(file.name)));
   auto found = read_programs(
-      options.class_folder.empty() ? options.programs : std::vector{options.class_folder}, stems);
+      options.class_folder.empty() ? options.programs : std::vector{options.class_folder}, stems,
+      in_english);
   if (!found)
     return tl::unexpected(found.error());
   wanted.programs = std::move(found->programs);
