@@ -23,7 +23,10 @@ bool is_names_and_figures(std::string_view text) {
 
 /// What ends the quotes that `before` opens; empty where it opens none.
 std::string_view end_of_quotes(std::string_view before) {
-  return before.ends_with("`") ? "`" : before.ends_with("“") ? "”" : "";
+  return before.ends_with("`")    ? "`"
+         : before.ends_with("\"") ? "\""
+         : before.ends_with("“")  ? "”"
+                                  : "";
 }
 
 } // namespace
@@ -106,7 +109,7 @@ bool Catalogue::fill(const Template& row, std::size_t at, std::string_view rest,
 }
 
 std::optional<std::string> Catalogue::filler(const Hole& hole, std::string_view text) const {
-  if (hole.end == "`")
+  if (hole.end == "`" || hole.end == "\"")
     return std::string(text);
   if (auto said = find(text))
     return said;

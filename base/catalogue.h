@@ -14,9 +14,10 @@ namespace orb {
 ///
 /// The program makes English texts; each is translated where it is shown. A key is such a text with
 /// a named hole for each part that differs: "`{word}` is not a statement". A hole in backticks
-/// holds code, which stays; one in “” what the catalogue knows, or whatever somebody wrote. Any
-/// other holds what the catalogue knows, as the reason in "write `{line}`; {why}", or names and
-/// figures, which stay. playground/page/catalogue.js reads the same files by the same rules.
+/// holds code, which stays, as does what a robot printed in ""; one in “” what the catalogue knows,
+/// or whatever somebody wrote. Any other holds what the catalogue knows, as the reason in "write
+/// `{line}`; {why}", or names and figures, which stay. playground/page/catalogue.js reads the same
+/// files by the same rules.
 class Catalogue {
 public:
   /// From JSON: objects with English keys and their translations. Nothing where it is not such.

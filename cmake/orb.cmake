@@ -125,15 +125,21 @@ function(orb_page_text variable path)
   set(${variable} "${text}" PARENT_SCOPE)
 endfunction()
 
-# orb_translations(<room>): the findings of each language travel inside the program (cli/context/language.h).
+# orb_translations(<room>): findings, verdicts and lessons in each language travel inside the program (cli/context/language.h).
 function(orb_translations room)
   file(GLOB languages CONFIGURE_DEPENDS ${ORB_ROOT}/translations/*.json)
   set(rows "")
   foreach(file ${languages})
     cmake_path(GET file STEM code)
     orb_page_text(text translations/${code}.json)
-    string(JSON findings GET "${text}" findings)
-    string(APPEND rows "  {\"${code}\", R\"json(${findings})json\"},\n")
+    set(texts "")
+    foreach(part findings verdicts lessons) # one object of them
+      string(JSON object GET "${text}" ${part})
+      string(REGEX REPLACE "^{|[ \n]*}$" "" members "${object}")
+      string(APPEND texts "${members},")
+    endforeach()
+    string(REGEX REPLACE ",$" "" texts "${texts}")
+    string(APPEND rows "  {\"${code}\", R\"json({${texts}})json\"},\n")
   endforeach()
   string(CONCAT translations "#include \"cli/context/language.h\"\n\nnamespace orb::cli {\nnamespace {\n"
     "constexpr Translation rows[] = {\n${rows}};\n} // namespace\n\n"

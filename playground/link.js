@@ -58,13 +58,15 @@ async function patiently(pauses_ms, deed, failed) {
   }
 }
 
+/** Asks the person for a port, so call it in a click. */
+export const choose_serial = () => navigator.serial.requestPort();
+
 /**
- * A serial port: a classic ball over Bluetooth, or an adapter. Asks the person for it where none is given, so
- * call it in a click. A link has `write(bytes)`, `read(ms, signal)` and `close()`; what it throws says
+ * A serial port: a classic ball over Bluetooth, or an adapter. Asks the person for it where none is given. A link has `write(bytes)`, `read(ms, signal)` and `close()`; what it throws says
  * `kind` ("closed", "broken") and `message`. `orb` knows how long what may take.
  */
 export async function serial_link(orb, port) {
-  port ??= await navigator.serial.requestPort();
+  port ??= await choose_serial();
   const { pauses_ms, serial } = await orb.call("links");
   if (!port.readable)
     await patiently(pauses_ms, () => port.open({ baudRate: serial.baud_rate }), (error, last) => {
@@ -110,18 +112,26 @@ export async function serial_link(orb, port) {
   };
 }
 
+const kinds_of = (links, which) => which === "all" ? [links.ble, links.newer] : [links.ble];
+
+/** Asks the person for a robot, so call it in a click. `which`: those that keep programs, or all that can be driven from here. */
+export async function choose_bluetooth(orb, which = "ble") {
+  const kinds = kinds_of(await orb.call("links"), which);
+  return navigator.bluetooth.requestDevice({
+    filters: kinds.flatMap(kind => kind.names.map(namePrefix => ({ namePrefix }))),
+    optionalServices: kinds.flatMap(kind => kind.services),
+  });
+}
+
 /**
- * A robot that speaks the same over Bluetooth LE. `orb` knows how one is opened to commands. `which`: those that
- * keep programs, or all that can be driven from here.
+ * A robot that speaks the same over Bluetooth LE. `orb` knows how one is opened to commands. Asks the person for it where
+ * none is given.
  */
 export async function bluetooth_link(orb, device, which = "ble") {
   const links = await orb.call("links");
   const { pauses_ms } = links;
-  const kinds = which === "all" ? [links.ble, links.newer] : [links.ble];
-  device ??= await navigator.bluetooth.requestDevice({
-    filters: kinds.flatMap(kind => kind.names.map(namePrefix => ({ namePrefix }))),
-    optionalServices: kinds.flatMap(kind => kind.services),
-  });
+  const kinds = kinds_of(links, which);
+  device ??= await choose_bluetooth(orb, which);
   const ble = kinds.find(kind => kind.names.some(name => device.name?.startsWith(name))) ?? kinds[0];
   const inbox = new Inbox();
   const lost = closed("the robot is gone; bring it closer, charge it, and try again");

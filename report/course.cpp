@@ -88,8 +88,7 @@ std::vector<vm::TimedStimulus> Course::stimuli() const {
 }
 
 bool is_course(std::string_view file_name) {
-  return file_name.size() > course_ending.size() &&
-         equal_words(file_name.substr(file_name.size() - course_ending.size()), course_ending);
+  return file_name.size() > course_ending.size() && has_ending(file_name, course_ending);
 }
 
 } // namespace orb::report

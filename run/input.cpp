@@ -3,6 +3,7 @@
 #include "assembler/assemble.h"
 #include "assembler/lint/lint.h"
 #include "base/text/text.h"
+#include "base/text/utf8.h"
 #include "compiler/check.h"
 #include "compiler/text/parse.h"
 #include "report/course.h"
@@ -139,8 +140,7 @@ tl::expected<void, Failure> read_macro_bytes(Input& input, Content content) {
 
 std::optional<Content> content_of(std::string_view name, std::string_view language) {
   const auto ending = std::find_if(endings.begin(), endings.end(), [&](const FileEnding& row) {
-    return name.size() >= row.text.size() &&
-           equal_words(name.substr(name.size() - row.text.size()), row.text);
+    return has_ending(name, row.text);
   });
   const bool macro_bytes = ending != endings.end() && (ending->content == Content::MacroBody ||
                                                        ending->content == Content::MacroImage);
@@ -164,18 +164,31 @@ std::optional<Language> language_of(std::string_view name, std::string_view lang
   return std::nullopt;
 }
 
+std::string_view language_of_text(std::string_view text) {
+  text.remove_prefix(byte_order_mark_size(text));
+  while (!text.empty()) {
+    const auto line = trim(text.substr(0, text.find('\n')));
+    text.remove_prefix(
+        std::min(text.size(), text.find('\n') == text.npos ? text.npos : text.find('\n') + 1));
+    if (line.empty() || line[0] == '#' || line[0] == '\'')
+      continue;
+    return is_digit(line[0]) ? "basic" : line[0] == '.' ? "macro" : "structured";
+  }
+  return "structured";
+}
+
 Failure unknown_content(std::string_view name) {
   if (report::is_course(name))
     return {ExitCode::Usage, fmt::format("{0} is a course; give it with `--course {0}`", name)};
-  if (name.ends_with(".test"))
+  if (has_ending(name, ".test"))
     return {ExitCode::Usage, fmt::format("{0} is a test; run it with `orb test {0}`", name)};
-  if (name.ends_with(".toml"))
+  if (has_ending(name, ".toml"))
     return {
         ExitCode::Usage,
         fmt::format("{0} is a room; `orb run {0}` runs it, `orb check {0}` checks it, and other "
                     "commands take its programs one by one",
                     name)};
-  if (name.ends_with(".stimulus"))
+  if (has_ending(name, ".stimulus"))
     return {ExitCode::Usage,
             fmt::format("{0} is a stimulus script; give it with `--stimulus {0}`", name)};
   return {ExitCode::Usage, fmt::format("cannot tell the language of {} from its name; give "

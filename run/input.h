@@ -43,6 +43,10 @@ std::optional<Content> content_of(std::string_view name, std::string_view langua
 /// told.
 std::optional<Language> language_of(std::string_view name, std::string_view language);
 
+/// What a program in plain text is written in, as `language` names it: where it begins with a
+/// number `basic`, with a dot `macro`, else `structured`.
+std::string_view language_of_text(std::string_view text);
+
 /// A source in its language: programs and macro source, not bytes.
 struct SourceFile {
   std::string path;

@@ -81,6 +81,8 @@ std::string replay_command(const Suite& suite, const Group& group, std::uint64_t
                : command + " --report report";
   }
   std::string command = "orb run " + path_word(program.name) + ball;
+  if (!program.language.empty())
+    command += " --lang " + program.language;
   for (const auto& with : file.file.with)
     command += " " + path_word(structured::resolve_path(file.source->name(), with.text));
   if (test.bound != default_bound)

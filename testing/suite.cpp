@@ -1,7 +1,9 @@
 #include "testing/suite.h"
 
+#include "base/catalogue.h"
 #include "base/render.h"
 #include "base/text/suggest.h"
+#include "base/text/text.h"
 #include "compiler/text/image.h"
 #include "testing/check_room.h"
 #include "testing/lookup.h"
@@ -20,20 +22,24 @@ namespace {
 
 constexpr std::array<std::string_view, 3> endings{".orb", ".bas", ".macro"};
 
+/// A program that somebody handed in as plain text.
+constexpr std::string_view plain_ending = ".txt";
+
 /// What keeps a source from becoming a program at all, as text.
-std::string errors_of(const Source& source, const std::vector<Diagnostic>& findings) {
+std::string errors_of(const Source& source, const std::vector<Diagnostic>& findings,
+                      const Say& say) {
   std::string text;
   for (const auto& one : findings)
     if (is_error(one))
-      text += render_text(source, one, {});
+      text += render_text(source, one, {}, say);
   return text;
 }
 
 /// Why an input cannot be run; empty where it can.
-std::string problem_of(const run::Input& input) {
-  auto text = errors_of(*input.source, input.findings);
+std::string problem_of(const run::Input& input, const Say& say) {
+  auto text = errors_of(*input.source, input.findings, say);
   for (const auto& file : input.included)
-    text += errors_of(*file.source, file.findings);
+    text += errors_of(*file.source, file.findings, say);
   if (!text.empty() || !input.program || input.program->compiled)
     return text;
   // The robot finds a line that it cannot read when it gets there; a test does not wait for that.
@@ -46,7 +52,7 @@ std::string problem_of(const run::Input& input) {
     return text;
   for (const auto& one : compiler::lint(parsed, {}))
     if (is_error(one) && unread.contains(line_of(one.span)))
-      text += render_text(*input.source, one, {});
+      text += render_text(*input.source, one, {}, say);
   return text;
 }
 
@@ -144,23 +150,31 @@ private:
             const std::vector<std::string>& kept) {
     auto text = files_.read(path);
     if (!text) {
-      made.problem += files_.trouble(path) + "\n";
+      made.problem += options_.say(files_.trouble(path)) + "\n";
       return;
     }
     if (text->find('\0') != std::string::npos) {
-      made.problem += fmt::format("{} is not a text file; programs are plain text\n", path);
+      made.problem += with_holes_filled(
+          options_.say("{file} is not a text file; programs are plain text"), {{"file", path}});
+      made.problem += "\n";
       return;
     }
-    auto input = run::read_input(path, *std::move(text), "", made.target, run::Lint::Off, files_,
-                                 kept, options_.shape);
+    const auto language =
+        has_ending(path, plain_ending) ? run::language_of_text(*text) : std::string_view();
+    made.language += path == made.name ? language : "";
+    auto input = run::read_input(path, *std::move(text), language, made.target, run::Lint::Off,
+                                 files_, kept, options_.shape);
     if (!input) {
-      made.problem += run::content_of(path, "")
-                          ? input.error().message + "\n"
-                          : fmt::format("cannot tell what {} is: a program's name ends in {}\n",
-                                        path, fmt::join(endings, ", "));
+      made.problem +=
+          run::content_of(path, language)
+              ? input.error().message + "\n"
+              : with_holes_filled(
+                    options_.say("cannot tell what {file} is: a program's name ends in {endings}"),
+                    {{"file", path}, {"endings", fmt::format("{}", fmt::join(endings, ", "))}}) +
+                    "\n";
       return;
     }
-    made.problem += problem_of(*input);
+    made.problem += problem_of(*input, options_.say);
     run::add_input(inputs, *std::move(input));
   }
 
@@ -173,6 +187,12 @@ private:
 std::string beside(const std::string& name, std::string_view ending) {
   const auto dot = name.rfind('.');
   return name.substr(0, dot) + std::string(ending);
+}
+
+std::string capitals(std::string_view ending) {
+  std::string made(ending);
+  std::transform(made.begin(), made.end(), made.begin(), to_upper);
+  return made;
 }
 
 /// For a line `WORD NAME` whose file cannot be read: one with an ending may have been meant.
@@ -206,8 +226,9 @@ std::optional<std::string> program_path(SuiteFile& file, structured::Files& file
     return std::nullopt;
   }
   for (const auto ending : endings)
-    if (auto path = beside(name, ending); files.read(path))
-      return path;
+    for (const auto& path : {beside(name, ending), beside(name, capitals(ending))})
+      if (files.read(path))
+        return path;
   findings.push_back(finding(rules::NoProgram, {0, 0},
                              fmt::format("there is no program to test: neither {}, {} nor {}",
                                          beside(name, endings[0]), beside(name, endings[1]),
@@ -380,7 +401,7 @@ tl::expected<Suite, Failure> make_suite(std::vector<GivenFile> given, const Suit
 }
 
 bool is_test(std::string_view file_name) {
-  return file_name.ends_with(file_ending);
+  return has_ending(file_name, file_ending);
 }
 
 std::vector<Diagnostic> check(const Source& source, structured::Files& files) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "base/exit_code.h"
+#include "base/render.h"
 #include "run/calibrate/profile.h"
 #include "run/input.h"
 #include "testing/judge.h"
@@ -23,7 +24,8 @@ namespace orb::testing {
 
 /// A program with all that goes along, ready to be run many times and by several threads.
 struct Prepared {
-  std::string name; ///< as the user wrote it, or as it was found
+  std::string name;     ///< as the user wrote it, or as it was found
+  std::string language; ///< of plain text, whose name does not tell it (`--lang`); else empty
   std::vector<run::Input> inputs;
   compiler::Target target;
   std::string problem;          ///< why it cannot be run: its findings, or a sentence; else empty
@@ -79,6 +81,7 @@ struct SuiteOptions {
   std::string only; ///< the one test to run, by its exact name; empty for all
   structured::Shape shape = structured::Shape::Shortest; ///< of structured programs
   std::optional<NamedProfile> ball;                      ///< which robot virtual balls drive like
+  Say say = in_english; ///< how it is said that a program cannot be run
 };
 
 /// A file as it was found: what findings call it, and its text.

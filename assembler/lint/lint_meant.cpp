@@ -39,6 +39,7 @@ public:
         if (command.info == nullptr || command.origin == Origin::Raw)
           return {}; // who knows what else is done
         check_colour(command);
+        check_heading(command);
       }
       check_exchanged(macro);
     }
@@ -96,6 +97,23 @@ private:
     if (changed)
       offer(rules::DimColour, command, "this is almost dark: brightness ranges from 0 to 255",
             repair::join(tokens), "");
+  }
+
+  /// A heading that robots and documents do not read alike.
+  void check_heading(const PlacedCommand& command) {
+    if (!is(command, MacroCommand::SetHeading) || command.value[0] == 0 ||
+        command.origin != Origin::Written)
+      return;
+    auto tokens = split(command);
+    const auto heading = std::find_if(tokens.begin(), tokens.end(),
+                                      [](const auto& token) { return token.is_number(); });
+    if (heading == tokens.end())
+      return;
+    heading->text = "0";
+    offer(
+        rules::HeadingOperand, command,
+        fmt::format("the current direction becomes 0 here, and {} in documents", command.value[0]),
+        repair::join(tokens), "0 means the same in both");
   }
 
   /// One roll has the speed of all others as its heading.

@@ -40,6 +40,12 @@ constexpr bool equal_words(std::string_view a, std::string_view b) {
                     [](char x, char y) { return to_lower(x) == to_lower(y); });
 }
 
+/// Whether a file's name ends so, in capitals or not: `ROBOT.ORB` is a `.orb`, too.
+constexpr bool has_ending(std::string_view name, std::string_view ending) {
+  return name.size() >= ending.size() &&
+         equal_words(name.substr(name.size() - ending.size()), ending);
+}
+
 /// In small letters; bytes beyond ASCII stay.
 std::string lower(std::string_view text);
 

@@ -79,8 +79,9 @@ std::unique_ptr<CommandLine> frame(Context& context) {
   orb.add_option("--color", context.color, "auto, always or never")
       .check(one_of({"auto", "always", "never"}))
       .show_default();
-  orb.add_option("--lang-ui", context.ui_language,
-                 "language of findings; by default that of LC_ALL, LC_MESSAGES or LANG")
+  orb.add_option(
+         "--lang-ui", context.ui_language,
+         "language of findings and verdicts; by default that of LC_ALL, LC_MESSAGES or LANG")
       .check(one_of(ui_languages()));
   return line;
 }

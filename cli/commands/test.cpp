@@ -1,5 +1,6 @@
 #include "base/text/text.h"
 #include "cli/commands/commands.h"
+#include "cli/context/language.h"
 #include "cli/input/inputs.h"
 #include "cli/input/links.h"
 #include "cli/input/programs.h"
@@ -15,8 +16,10 @@
 #include "testing/verdicts/report.h"
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <fmt/format.h>
+#include <map>
 #include <memory>
 #include <thread>
 
@@ -184,12 +187,16 @@ public:
         return refuse(
             fmt::format("{} is not a report from `orb test`; choose another folder", index));
       fs::remove(disk::as_path(index), error);
-      for (const auto& file : fs::directory_iterator(disk::as_path(folder_ + "/runs"), error))
-        remove_old(file.path());
+      fs::remove(disk::as_path(folder_ + "/certificates.html"), error);
+      for (const auto& part : parts)
+        for (const auto& file : fs::directory_iterator(disk::as_path(folder_ + part), error))
+          remove_old(file.path());
     }
-    fs::create_directories(disk::as_path(folder_ + "/runs"), error);
-    if (error)
-      return refuse(fmt::format("cannot create {}/runs: {}", folder_, error.message()));
+    for (const auto& part : parts) {
+      fs::create_directories(disk::as_path(folder_ + part), error);
+      if (error)
+        return refuse(fmt::format("cannot create {}{}: {}", folder_, part, error.message()));
+    }
     return {};
   }
 
@@ -217,23 +224,34 @@ private:
       fs::remove(path, kept);
   }
 
+  static constexpr std::array<const char*, 2> parts{"/runs", "/pupils"};
+
   std::string folder_;
   std::string problem_;
 };
 
-tl::expected<void, Failure> write_report(const std::string& folder, const testing::Suite& suite,
-                                         const testing::Results& results) {
+testing::Speech speech_of(const Context& context) {
+  return {say_in(context.ui_language), spoken_language(context.ui_language)};
+}
+
+tl::expected<void, Failure> write_report(const Context& context, const std::string& folder,
+                                         const testing::Suite& suite,
+                                         const testing::Results& results,
+                                         const std::map<std::string, std::string>& names) {
   ReportFolder pages(folder);
   if (auto ready = pages.begin(); !ready)
     return ready;
-  if (!testing::write_report(suite, results, pages))
+  if (!testing::write_report(suite, results, pages, names, speech_of(context)))
     return tl::unexpected(Failure{ExitCode::File, pages.problem()});
   return {};
 }
 
-tl::expected<testing::SuiteOptions, Failure> suite_options(const TestOptions& options) {
+tl::expected<testing::SuiteOptions, Failure> suite_options(const Context& context,
+                                                           const TestOptions& options) {
   testing::SuiteOptions wanted;
   wanted.only = options.only;
+  if (testing::is_for_people(testing::format_called(options.format)))
+    wanted.say = say_in(context.ui_language);
   if (!options.ball.empty()) {
     auto profile = read_profile(options.ball, {});
     if (!profile)
@@ -270,14 +288,14 @@ tl::expected<void, Failure> write_results(const Context& context, const TestOpti
   const auto listing = context.quiet ? testing::Listing::Failures : testing::Listing::All;
   const bool to_file = !options.output.empty();
   const auto text = testing::render(results, testing::format_called(options.format), listing,
-                                    to_file ? Style{} : context.out_style());
+                                    to_file ? Style{} : context.out_style(), speech_of(context));
   if (!to_file) {
     print_out(text);
     return {};
   }
   if (const auto written = disk::write(options.output, as_bytes(text)); !written)
     return tl::unexpected(Failure{ExitCode::File, written.error().message});
-  print_note(context, testing::render_summary(results));
+  print_note(context, testing::render_summary(results, speech_of(context).say));
   return {};
 }
 
@@ -339,25 +357,29 @@ tl::expected<void, Failure> check_programs(const TestOptions& options) {
 /// What `--program` names, as far as it can be read.
 tl::expected<void, Failure> add_programs(const TestOptions& options,
                                          const std::vector<testing::GivenFile>& tests,
-                                         testing::SuiteOptions& wanted) {
+                                         testing::SuiteOptions& wanted,
+                                         std::map<std::string, std::string>& names) {
   std::set<std::string> stems;
   for (const auto& file : tests)
     stems.insert(std::string(stem(file.name)));
-  auto found = read_programs(
-      options.class_folder.empty() ? options.programs : std::vector{options.class_folder}, stems);
+  auto found = read_programs(options.class_folder.empty() ? options.programs
+                                                          : std::vector{options.class_folder},
+                             stems, wanted.say);
   if (!found)
     return tl::unexpected(found.error());
   wanted.programs = std::move(found->programs);
   wanted.troubles = std::move(found->troubles);
   wanted.missing = std::move(found->missing);
+  names = std::move(found->pupils);
   return {};
 }
 
 tl::expected<void, Failure> report_and_tell(Context& context, const TestOptions& options,
                                             const testing::Suite& suite,
-                                            const testing::Results& results) {
+                                            const testing::Results& results,
+                                            const std::map<std::string, std::string>& names) {
   if (!options.report.empty())
-    if (auto written = write_report(options.report, suite, results); !written)
+    if (auto written = write_report(context, options.report, suite, results, names); !written)
       return written;
   return tell_results(context, options, results);
 }
@@ -365,7 +387,8 @@ tl::expected<void, Failure> report_and_tell(Context& context, const TestOptions&
 /// The tests on a robot, one after the other. What is known of it is told, even where the link was
 /// lost in the middle.
 tl::expected<void, Failure> test_robot(Context& context, const TestOptions& options,
-                                       const testing::Suite& suite, testing::RunOptions run) {
+                                       const testing::Suite& suite, testing::RunOptions run,
+                                       const std::map<std::string, std::string>& names) {
   const InterruptGuard guard;
   auto robot = connect_robot(context, options.port, options.robot);
   if (!robot)
@@ -374,7 +397,7 @@ tl::expected<void, Failure> test_robot(Context& context, const TestOptions& opti
   run.play = [&](auto&... all) { return stage.play(all...); };
   NoBar none;
   const auto results = testing::run_suite(suite, run, none);
-  if (auto told = report_and_tell(context, options, suite, results); !told)
+  if (auto told = report_and_tell(context, options, suite, results, names); !told)
     return told;
   if (stage.broken())
     return tl::unexpected(*stage.broken());
@@ -406,7 +429,7 @@ tl::expected<void, Failure> run_tests(Context& context, const TestOptions& optio
     return fits;
   if (auto programs = check_programs(options); !programs)
     return programs;
-  auto wanted = suite_options(options);
+  auto wanted = suite_options(context, options);
   if (!wanted)
     return tl::unexpected(wanted.error());
   const auto shard = read_shard(options.shard);
@@ -415,7 +438,8 @@ tl::expected<void, Failure> run_tests(Context& context, const TestOptions& optio
   auto files = given_tests(options);
   if (!files)
     return tl::unexpected(files.error());
-  if (auto programs = add_programs(options, *files, *wanted); !programs)
+  std::map<std::string, std::string> names;
+  if (auto programs = add_programs(options, *files, *wanted, names); !programs)
     return programs;
   DiskFiles disk;
   const auto suite = testing::make_suite(*std::move(files), *wanted, disk);
@@ -432,12 +456,12 @@ tl::expected<void, Failure> run_tests(Context& context, const TestOptions& optio
   run.jobs = options.jobs != 0 ? options.jobs : std::max(1U, std::thread::hardware_concurrency());
   run.shard = *shard;
   if (!options.port.port.empty())
-    return test_robot(context, options, *suite, std::move(run));
+    return test_robot(context, options, *suite, std::move(run), names);
   const auto results = [&] {
     Bar bar(context);
     return testing::run_suite(*suite, run, bar);
   }();
-  return report_and_tell(context, options, *suite, results);
+  return report_and_tell(context, options, *suite, results, names);
 }
 
 } // namespace

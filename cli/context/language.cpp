@@ -26,10 +26,10 @@ std::string language_of_environment() {
 std::optional<Catalogue> catalogue_of(std::string_view code) {
   const auto all = translations();
   if (code == pseudo_language && !all.empty())
-    return Catalogue::marked(all.front().findings);
+    return Catalogue::marked(all.front().texts);
   const auto translation =
       std::find_if(all.begin(), all.end(), [&](const auto& one) { return one.code == code; });
-  return translation == all.end() ? std::nullopt : Catalogue::read(translation->findings);
+  return translation == all.end() ? std::nullopt : Catalogue::read(translation->texts);
 }
 
 } // namespace
@@ -39,6 +39,15 @@ std::vector<std::string> ui_languages() {
   for (const auto& one : translations())
     codes.emplace_back(one.code);
   return codes;
+}
+
+std::string spoken_language(std::string_view language) {
+  auto code = language.empty() ? language_of_environment() : std::string(language);
+  const auto all = translations();
+  const bool known =
+      code == pseudo_language ||
+      std::any_of(all.begin(), all.end(), [&](const auto& one) { return one.code == code; });
+  return known ? code : "en";
 }
 
 Say say_in(std::string_view language) {

@@ -9,10 +9,11 @@
 
 namespace orb::cli {
 
-/// A language, and its findings as base/catalogue.h reads them: translations/CODE.json.
+/// A language, and its findings, verdicts and lessons as base/catalogue.h reads them:
+/// translations/CODE.json.
 struct Translation {
   std::string_view code; ///< ISO 639-1
-  std::string_view findings;
+  std::string_view texts;
 };
 
 /// Those that the program carries, made by cli/CMakeLists.txt.
@@ -24,6 +25,10 @@ std::vector<std::string> ui_languages();
 /// The language of tests and translators: findings in English, what is translated between `⟦` and
 /// `⟧`. Private to its users in ISO 639-2.
 inline constexpr std::string_view pseudo_language = "qps";
+
+/// The code of that language, or for none of that of the environment, as say_in() has it; `en`
+/// where there is no translation.
+std::string spoken_language(std::string_view language);
 
 /// How findings are said in that language; for none, in that of the environment: LC_ALL,
 /// LC_MESSAGES or LANG, where the program has it. Lasts as long as the process.

@@ -133,11 +133,10 @@ tl::expected<std::string, Failure> read(const std::string& path) {
 
 /// Where the name of a file of addresses ends in `path`, which goes on behind it.
 std::optional<std::size_t> end_of_link(const std::string& path) {
-  const auto inside = std::string(link_ending) + "/";
-  for (auto at = path.find(inside); at != std::string::npos; at = path.find(inside, at + 1)) {
-    const auto end = at + link_ending.size();
+  for (auto end = path.find('/'); end != std::string::npos; end = path.find('/', end + 1)) {
     std::error_code absent;
-    if (fs::is_regular_file(disk::as_path(path.substr(0, end)), absent))
+    if (is_link_file(std::string_view(path).substr(0, end)) &&
+        fs::is_regular_file(disk::as_path(path.substr(0, end)), absent))
       return end;
   }
   return std::nullopt;
@@ -146,7 +145,7 @@ std::optional<std::size_t> end_of_link(const std::string& path) {
 } // namespace
 
 bool is_link_file(std::string_view path) {
-  return path.ends_with(link_ending);
+  return has_ending(path, link_ending);
 }
 
 tl::expected<std::vector<Shared>, std::string> read_links(std::string_view text) {

@@ -1,6 +1,8 @@
 #include "cli/input/programs.h"
 
+#include "base/catalogue.h"
 #include "base/text/text.h"
+#include "cli/input/inputs.h"
 #include "cli/input/links.h"
 #include "disk/disk.h"
 #include "run/input.h"
@@ -11,6 +13,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <optional>
+#include <span>
+#include <unordered_map>
 
 namespace orb::cli {
 namespace {
@@ -19,18 +23,41 @@ namespace fs = std::filesystem;
 
 constexpr std::array<std::string_view, 3> endings{".orb", ".bas", ".macro"};
 
+/// What mail and lessons wrap programs in; nobody but the pupil or the teacher unwraps them.
+constexpr std::array<std::string_view, 4> packed_endings{".zip", ".rar", ".7z", ".tar.gz"};
+constexpr std::string_view text_ending = ".txt";
+// More names say no more about what somebody handed in.
+constexpr std::size_t most_named = 3;
+
+bool has_one_of(std::string_view name, std::span<const std::string_view> all) {
+  return std::any_of(all.begin(), all.end(),
+                     [&](std::string_view ending) { return has_ending(name, ending); });
+}
 bool is_program(std::string_view name) {
-  return std::any_of(endings.begin(), endings.end(),
-                     [&](std::string_view ending) { return name.ends_with(ending); });
+  return has_one_of(name, endings);
 }
 
 /// What a folder holds, in the order of names, without what is hidden.
 struct Listing {
-  std::vector<std::string> programs;  ///< by their endings, whatever they are
-  std::vector<std::string> addresses; ///< files of them
-  std::vector<std::string> folders;
-  std::vector<std::string> loops; ///< links that lead nowhere
-  std::error_code error;
+  std::vector<std::string> programs = {};  ///< by their endings, whatever they are
+  std::vector<std::string> texts = {};     ///< plain text, which may be a program
+  std::vector<std::string> addresses = {}; ///< files of them
+  std::vector<std::string> folders = {};
+  std::vector<std::string> loops = {};  ///< links that lead nowhere
+  std::vector<std::string> packed = {}; ///< archives
+  std::vector<std::string> others = {};
+  std::error_code error = {};
+
+  void take(const Listing& more) {
+    const auto append = [](auto& to, const auto& from) {
+      to.insert(to.end(), from.begin(), from.end());
+    };
+    append(programs, more.programs);
+    append(texts, more.texts);
+    append(addresses, more.addresses);
+    append(packed, more.packed);
+    append(others, more.others);
+  }
 };
 
 Listing list(const std::string& folder) {
@@ -40,7 +67,7 @@ Listing list(const std::string& folder) {
     const auto name = at->path().filename().string();
     const auto path = (disk::as_path(folder) / disk::as_path(name)).generic_string();
     std::error_code unknown;
-    if (name.starts_with('.'))
+    if (name.starts_with('.') || name == "__MACOSX") // which a Mac puts into its archives
       continue;
     if (at->is_directory(unknown))
       found.folders.push_back(path);
@@ -50,15 +77,26 @@ Listing list(const std::string& folder) {
       found.addresses.push_back(path);
     else if (unknown && at->is_symlink(unknown))
       found.loops.push_back(path);
+    else if (has_ending(name, text_ending))
+      found.texts.push_back(path);
+    else if (has_one_of(name, packed_endings))
+      found.packed.push_back(path);
+    else
+      found.others.push_back(path);
   }
-  for (auto* names : {&found.programs, &found.addresses, &found.folders, &found.loops})
+  for (auto* names : {&found.programs, &found.texts, &found.addresses, &found.folders, &found.loops,
+                      &found.packed, &found.others})
     std::sort(names->begin(), names->end());
   return found;
 }
 
+std::string name_of(const std::string& path) {
+  return disk::as_path(path).filename().string();
+}
+
 class Reader {
 public:
-  explicit Reader(const std::set<std::string>& stems) : stems_(stems) {}
+  Reader(const std::set<std::string>& stems, const Say& say) : stems_(stems), say_(say) {}
 
   /// What was named on the command line; why it cannot be.
   std::optional<Failure> add(const std::string& path) {
@@ -69,30 +107,24 @@ public:
                      fmt::format("cannot read {}; check the name and the folder", path)};
     if (!fs::is_directory(disk::as_path(path), error)) {
       if (is_link_file(path))
-        add_addresses(path);
+        add_addresses(path, {});
       else
-        found_.programs.push_back(path);
+        add_program(path, std::string(stem(path)));
       return std::nullopt;
     }
     const auto listing = list(path);
     if (listing.error) {
-      add_trouble(path, cannot_read(path, listing.error));
+      add_trouble(path, name_of(path), cannot_read(path, listing.error));
       return std::nullopt;
     }
     const auto own = called_like_tests(listing.programs);
     if (listing.addresses.empty() && !own.empty()) {
-      found_.programs.insert(found_.programs.end(), own.begin(), own.end());
+      for (const auto& program : own)
+        add_program(program, name_of(path));
       return std::nullopt;
     }
     const auto before = found_.programs.size();
-    for (const auto& program : listing.programs)
-      found_.programs.push_back(program);
-    for (const auto& file : listing.addresses)
-      add_addresses(file);
-    for (const auto& loop : listing.loops)
-      add_trouble(loop, fmt::format("cannot read {}: broken symbolic link", loop));
-    for (const auto& folder : listing.folders)
-      add_pupil(folder);
+    add_class(listing);
     if (found_.programs.size() == before)
       return Failure{ExitCode::Usage, fmt::format("no program in {}: it has no {}, no .link file "
                                                   "with an address, and no folder with either",
@@ -104,8 +136,13 @@ public:
   HandedIn take() { return std::move(found_); }
 
 private:
-  static std::string cannot_read(const std::string& path, const std::error_code& error) {
-    return fmt::format("cannot read {}: {}", path, error.message());
+  std::string told(std::string_view sentence,
+                   const std::unordered_map<std::string, std::string>& names) const {
+    return with_holes_filled(say_(sentence), names);
+  }
+
+  std::string cannot_read(const std::string& path, const std::error_code& error) const {
+    return told("cannot read {file}: {why}", {{"file", path}, {"why", error.message()}});
   }
 
   /// The names of programs that tests ask for.
@@ -120,9 +157,8 @@ private:
     std::vector<std::string> own;
     for (const auto& stem : stems_)
       for (const auto ending : endings) {
-        const auto name = stem + std::string(ending);
         const auto at = std::find_if(programs.begin(), programs.end(), [&](const auto& path) {
-          return disk::as_path(path).filename() == disk::as_path(name);
+          return equal_words(name_of(path), stem + std::string(ending));
         });
         if (at == programs.end())
           continue;
@@ -132,61 +168,135 @@ private:
     return own;
   }
 
-  void add_trouble(const std::string& path, std::string sentence) {
+  void add_program(const std::string& path, const std::string& pupil) {
     found_.programs.push_back(path);
+    found_.pupils.emplace(path, pupil);
+  }
+
+  void add_trouble(const std::string& path, const std::string& pupil, std::string sentence) {
+    add_program(path, pupil);
     found_.troubles.emplace(path, std::move(sentence));
   }
 
-  /// A folder among others: one pupil's.
+  /// A folder of many pupils' work.
+  void add_class(const Listing& listing) {
+    for (const auto& program : listing.programs)
+      add_program(program, std::string(stem(program)));
+    for (const auto& text : listing.texts)
+      add_loose_text(text);
+    for (const auto& file : listing.addresses)
+      add_addresses(file, {});
+    for (const auto& loop : listing.loops)
+      add_trouble(loop, name_of(loop),
+                  told("cannot read {file}: broken symbolic link", {{"file", loop}}));
+    for (const auto& file : listing.packed)
+      add_trouble(file, std::string(stem(file)), told(is_packed, {{"file", file}}));
+    for (const auto& folder : listing.folders)
+      add_pupil(folder);
+  }
+
+  /// A text among programs and folders: somebody's program, or notes that nobody wants to test.
+  void add_loose_text(const std::string& path) {
+    auto text = read_text(path);
+    if (!text)
+      return;
+    const auto pupil = std::string(stem(path));
+    if (const auto links = read_links(*text); links)
+      return add_trouble(path, pupil,
+                         told("{file} holds addresses of the playground; rename it to {name}",
+                              {{"file", path}, {"name", pupil + std::string(link_ending)}}));
+    DiskFiles files;
+    const auto language = run::language_of_text(*text);
+    const auto input = run::read_input(path, *std::move(text), language, {}, run::Lint::Off, files);
+    if (language != "structured" || (input && !input->has_errors()))
+      add_program(path, pupil);
+  }
+
+  /// A folder among others: one pupil's. What was packed often lies in a folder of its own in it.
   void add_pupil(const std::string& folder) {
-    const auto listing = list(folder);
+    auto listing = list(folder);
     if (listing.error)
-      return add_trouble(folder, cannot_read(folder, listing.error));
+      return add_trouble(folder, name_of(folder), cannot_read(folder, listing.error));
+    if (listing.programs.empty() && listing.addresses.empty())
+      for (const auto& deeper : listing.folders)
+        listing.take(list(deeper));
     if (listing.programs.empty() && !listing.addresses.empty()) {
       for (const auto& file : listing.addresses)
-        add_addresses(file);
+        add_addresses(file, name_of(folder));
       return;
     }
-    add_handed_in(folder, listing.programs);
+    add_handed_in(folder, name_of(folder), listing);
   }
 
   /// One pupil's programs: the one that is meant, if it is clear.
-  void add_handed_in(const std::string& folder, const std::vector<std::string>& programs) {
+  void add_handed_in(const std::string& folder, const std::string& pupil, const Listing& listing) {
+    const auto& programs = listing.programs.empty() ? listing.texts : listing.programs;
     const auto own = called_like_tests(programs);
     if (!own.empty() || programs.size() == 1) {
-      const auto& chosen = own.empty() ? programs : own;
-      found_.programs.insert(found_.programs.end(), chosen.begin(), chosen.end());
-    } else if (programs.empty()) {
-      found_.missing.insert(folder);
-      add_trouble(folder, fmt::format("{} holds no program; expected {}", folder, wanted()));
+      for (const auto& program : own.empty() ? programs : own)
+        add_program(program, pupil);
+    } else if (!listing.programs.empty()) {
+      add_trouble(
+          folder, pupil,
+          told("{folder} holds {n} programs; call the one to test {name}",
+               {{"folder", folder}, {"n", std::to_string(programs.size())}, {"name", wanted()}}));
     } else {
-      add_trouble(folder, fmt::format("{} holds {}; call the one to test {}", folder,
-                                      plural(programs.size(), "program"), wanted()));
+      found_.missing.insert(folder);
+      add_trouble(folder, pupil, why_none(folder, listing));
     }
   }
 
-  /// What the playground shares: each address is one pupil's.
-  void add_addresses(const std::string& file) {
+  /// What lies there in place of a program.
+  std::string why_none(const std::string& folder, const Listing& listing) const {
+    if (!listing.packed.empty())
+      return told(is_packed, {{"file", listing.packed.front()}});
+    std::vector<std::string> there;
+    for (const auto& deeper : listing.folders)
+      there.push_back(name_of(deeper) + "/");
+    for (const auto* names : {&listing.texts, &listing.others})
+      for (const auto& path : *names)
+        there.push_back(name_of(path));
+    if (there.empty())
+      return told("{folder} holds no program; expected {name}",
+                  {{"folder", folder}, {"name", wanted()}});
+    if (there.size() > most_named) {
+      there.resize(most_named);
+      there.emplace_back("…");
+    }
+    return told("{folder} holds no program, but {there}; expected {name}",
+                {{"folder", folder},
+                 {"there", fmt::format("{}", fmt::join(there, ", "))},
+                 {"name", wanted()}});
+  }
+
+  /// What the playground shares: each address is one pupil's, that of `pupil` if named.
+  void add_addresses(const std::string& file, const std::string& pupil) {
+    const auto whose = [&](const std::string& folder) {
+      return !pupil.empty() ? pupil : folder == file ? std::string(stem(file)) : name_of(folder);
+    };
     const auto folders = read_link_file(file);
     if (!folders)
-      return add_trouble(file, folders.error().message);
+      return add_trouble(file, whose(file), folders.error().message);
     for (const auto& [folder, shared] : *folders) {
       if (!shared.trouble.empty()) {
-        add_trouble(folder, shared.trouble);
+        add_trouble(folder, whose(folder), shared.trouble);
         continue;
       }
-      std::vector<std::string> programs;
+      Listing listing;
       for (const auto& [name, text] : shared.files)
         if (is_program(name))
-          programs.push_back(folder + "/" + name);
+          listing.programs.push_back(folder + "/" + name);
       const bool has_main = shared.files.contains(shared.main) && is_program(shared.main);
-      if (has_main && called_like_tests(programs).empty())
-        programs = {folder + "/" + shared.main};
-      add_handed_in(folder, programs);
+      if (has_main && called_like_tests(listing.programs).empty())
+        listing.programs = {folder + "/" + shared.main};
+      add_handed_in(folder, whose(folder), listing);
     }
   }
 
+  static constexpr std::string_view is_packed = "{file} is packed; unpack it, and test again";
+
   const std::set<std::string>& stems_;
+  const Say& say_;
   HandedIn found_;
 };
 
@@ -204,8 +314,8 @@ std::vector<std::string> addresses_of(const std::string& folder) {
 } // namespace
 
 tl::expected<HandedIn, Failure> read_programs(const std::vector<std::string>& paths,
-                                              const std::set<std::string>& stems) {
-  Reader reader(stems);
+                                              const std::set<std::string>& stems, const Say& say) {
+  Reader reader(stems, say);
   for (const auto& path : paths)
     if (auto failure = reader.add(path))
       return tl::unexpected(*std::move(failure));

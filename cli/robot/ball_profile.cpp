@@ -1,5 +1,6 @@
 #include "cli/robot/ball_profile.h"
 
+#include "base/text/text.h"
 #include "cli/context/save_ball.h"
 #include "cli/model/command.h"
 #include "disk/disk.h"
@@ -13,7 +14,7 @@ void add_ball_option(const Command& command, std::string& name, const std::strin
 }
 
 tl::expected<std::string, Failure> profile_file(const std::string& name) {
-  if (name.find_first_of("/\\") != name.npos || name.ends_with(".toml"))
+  if (name.find_first_of("/\\") != name.npos || has_ending(name, ".toml"))
     return name;
   if (!is_ball_name(name))
     return tl::unexpected(

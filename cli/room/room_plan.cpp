@@ -171,7 +171,7 @@ std::string same_name(const std::vector<PlannedBall>& balls) {
 } // namespace
 
 bool is_room_file(std::string_view name) {
-  return name.ends_with(".toml");
+  return has_ending(name, ".toml");
 }
 
 tl::expected<RoomPlan, Failure> read_room(const std::string& path) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "base/io_error.h"
+#include "base/text/text.h"
 #include "cli/context/output_error.h"
 #include "cli/input/target.h"
 #include "cli/many/roster.h"
@@ -59,7 +60,7 @@ struct RunOptions {
   std::optional<report::TraceFormat> format() const {
     if (trace.empty() && trace_out.empty())
       return std::nullopt;
-    const bool csv = trace == "csv" || (trace.empty() && trace_out.ends_with(".csv"));
+    const bool csv = trace == "csv" || (trace.empty() && has_ending(trace_out, ".csv"));
     return csv ? report::TraceFormat::Csv : report::TraceFormat::Json;
   }
 };

@@ -1,5 +1,6 @@
 #include "editor/lsp/workspace.h"
 
+#include "base/text/text.h"
 #include "run/input.h"
 #include "testing/suite.h"
 
@@ -22,7 +23,7 @@ int severity_number(Severity severity) {
 const LanguageService& language_of(std::string_view id, std::string_view uri) {
   if (id == "orbtest" || testing::is_test(uri))
     return test_service;
-  if (id == "orbstimulus" || uri.ends_with(".stimulus"))
+  if (id == "orbstimulus" || has_ending(uri, ".stimulus"))
     return stimulus_service;
   const auto word = id == "orbmacro" || id == "macro"             ? std::string_view("macro")
                     : id == "orbbasic" || id == "basic"           ? std::string_view("basic")

@@ -2,9 +2,10 @@
 
 /** Names and figures, which every language has alike: `heading`, `90 ms`, `red, green, blue`. */
 const names_and_figures = /^(?:(?:[-\d.]+|\S*,) )*\S+$/;
-/** What may fill a hole behind that character. Between backticks code stays as it is; between “” stands what the catalogue
+/** What may fill a hole behind that character. Between backticks code stays as it is, and what was printed between "";
+ *  between “” stands what the catalogue
  *  knows, or what somebody wrote; elsewhere what it knows, or names and figures. */
-const quoted = { "`": "([^`]+)", "“": "([^“”]+)" };
+const quoted = { "`": "([^`]+)", '"': '([^"]+)', "“": "([^“”]+)" };
 const literal = text => text.replace(/[\\^$.*+?()[\]{}|]/g, "\\$&");
 
 function template(english, translation) {
@@ -21,7 +22,7 @@ export function make_catalogue(texts) {
   function fillers({ holes }, found) {
     const filled = {};
     for (const [i, { name, before }] of holes.entries()) {
-      const text = found[i + 1], said = before === "`" ? text : find(text) ?? (before === "“" || names_and_figures.test(text) ? text : undefined);
+      const text = found[i + 1], said = before === "`" || before === '"' ? text : find(text) ?? (before === "“" || names_and_figures.test(text) ? text : undefined);
       if (said === undefined) return null;
       filled[name] = said;
     }

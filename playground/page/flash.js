@@ -1,8 +1,9 @@
 // A program onto a real ball, where the browser can; else the file for `orb upload`.
 
-import { can_serial, can_bluetooth, serial_link, bluetooth_link, deliver, do_wish } from "../link.js";
+import { can_serial, can_bluetooth, choose_serial, choose_bluetooth, serial_link, bluetooth_link, deliver, do_wish } from "../link.js";
 import { $, download } from "./dom.js";
 import { request } from "./ball.js";
+import { robot_list } from "./robots.js";
 import { ending_of } from "./workspace.js";
 
 /** What `promise` brings; when `signal` says so, an error at once, and what comes later is given to `undo`. */
@@ -17,6 +18,12 @@ function unless(signal, promise, undo) {
 export function set_up_flash({ machine, workspace, ball, on_mistakes }) {
   let running = null;
   let held = null; // the link to a robot that has taken the program: { link, asked, over }
+  const ways = {
+    serial: { choose: choose_serial, open: port => serial_link(machine, port) },
+    bluetooth: { choose: () => choose_bluetooth(machine), open: device => bluetooth_link(machine, device) },
+  };
+  const robots = robot_list((way, device) => write(way, device));
+  let way_of_last = null;
 
   async function open() {
     const { names } = request(workspace());
@@ -48,43 +55,58 @@ export function set_up_flash({ machine, workspace, ball, on_mistakes }) {
   }
   function set_running(controller) {
     running = controller;
-    for (const id of ["drive-serial", "drive-bluetooth", "flash-serial", "flash-bluetooth", "flash-file", "flash-close", "flash-options"]) $(id).disabled = !!controller;
+    for (const id of ["drive-serial", "drive-bluetooth", "flash-serial", "flash-bluetooth", "flash-file", "flash-close", "flash-options", "flash-next"]) $(id).disabled = !!controller;
+    $("robots").inert = !!controller;
     $("flash-cancel").hidden = !controller;
     if (!controller) return;
     $("flash-progress").hidden = false;
     $("flash-progress").value = 0;
   }
-  async function write(open_link) {
+  /** To a robot that the person chooses, or once more to `device`. */
+  async function write(way, device) {
     const { files, names } = request(workspace());
     const controller = new AbortController();
-    let link = null, stays = false;
+    let link = null, row = null, stays = false;
+    const tell = (state, words, in_list = words) => {
+      say(words, state === "failed");
+      row?.show(state, in_list);
+    };
     await let_go();
     set_running(controller);
-    say("Choose the ball in the browser's window.");
+    say(device ? "" : "Choose the ball in the browser's window.");
     try {
-      link = await unless(controller.signal, open_link(), late => late.close());
+      device ??= await unless(controller.signal, way.choose(), () => {});
+      row = robots.row_of(way, device);
+      way_of_last = way;
+      row.show("busy", "");
+      link = await unless(controller.signal, way.open(device), late => late.close());
       const area = document.querySelector("input[name=area]:checked").value;
       const outcome = await deliver(machine, link, { files, names, area, run: $("flash-run").checked, line: null, force: false, clear_macros: false }, {
         signal: controller.signal,
         on_status({ words, stage, bytes, bytes_total }) {
-          if (bytes_total) $("flash-progress").value = bytes / bytes_total;
-          say(words || stage || "");
+          const part = bytes_total ? bytes / bytes_total : 0;
+          $("flash-progress").value = part;
+          tell("busy", words || stage || "", `${Math.round(100 * part)} %`);
         },
       });
       stays = outcome.kind === "done";
       if (stays) $("flash-progress").value = 1;
-      say(outcome.message || outcome.kind, !stays);
+      tell(stays ? "done" : "failed", outcome.message || outcome.kind);
       if (stays) hold(link, { files, names, area });
     } catch (error) {
       if (error.findings) {
         on_mistakes(error.findings);
-        say("The program has errors; it was not written to the robot.", true);
+        tell("failed", "The program has errors; it was not written to the robot.");
+      } else if (error.name === "NotFoundError" && !row) {
+        say("No ball was chosen.");
       } else {
-        say(error.name === "NotFoundError" ? "No ball was chosen." : error.message, error.name !== "NotFoundError");
+        tell("failed", error.message);
       }
     } finally {
       if (!stays) await link?.close().catch(() => {});
       set_running(null);
+      $("flash-next").hidden = !way_of_last;
+      if (way_of_last && document.activeElement === document.body) $("flash-next").focus();
     }
   }
   /** The program runs here and drives the robot: the dialog makes room for the map. */
@@ -160,8 +182,8 @@ export function set_up_flash({ machine, workspace, ball, on_mistakes }) {
   $("robot-run").addEventListener("click", () => tell("run"));
   $("robot-stop").addEventListener("click", () => tell("stop"));
   window.addEventListener("pagehide", () => let_go());
-  $("flash-serial").addEventListener("click", () => write(() => serial_link(machine)));
-  $("flash-bluetooth").addEventListener("click", () => write(() => bluetooth_link(machine)));
+  for (const way of ["serial", "bluetooth"]) $(`flash-${way}`).addEventListener("click", () => write(ways[way]));
+  $("flash-next").addEventListener("click", () => write(way_of_last));
   $("drive-serial").addEventListener("click", () => drive(() => serial_link(machine)));
   $("drive-bluetooth").addEventListener("click", () => drive(() => bluetooth_link(machine, undefined, "all")));
   $("flash-file").addEventListener("click", as_file);

@@ -9,13 +9,16 @@
 namespace orb::testing {
 namespace {
 
+// Without it spreadsheets take the bytes for another encoding than UTF-8.
+constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+
 /// A field that holds whatever a file may be called. Spreadsheets compute what begins with one of
 /// these signs, unless an apostrophe stands before it.
 std::string field(std::string_view text) {
   auto out = to_valid_utf8(text);
   if (!out.empty() && std::string_view("=+-@\t\r").find(out.front()) != std::string_view::npos)
     out.insert(0, "'");
-  if (out.find_first_of(",\"\r\n") == std::string::npos)
+  if (out.find_first_of(",;\"\r\n") == std::string::npos)
     return out;
   for (std::size_t at = 0; (at = out.find('"', at)) != std::string::npos; at += 2)
     out.insert(at, "\"");
@@ -39,17 +42,22 @@ std::string problem(const Table::Row& row) {
 
 } // namespace
 
-std::string render_csv(const Results& results) {
+std::string render_csv(const Results& results, const Speech& speech) {
   const auto table = whole_table(results);
-  std::string out = "program";
+  const std::string comma = speech.code == "en" ? "," : ";";
+  const auto word = [&](std::string_view english) { return field(speech.say(english)); };
+  auto out = std::string(byte_order_mark) + word("program");
   for (const auto& test : table.tests)
-    out += "," + field(test);
-  out += ",points,of,problem\r\n";
+    out += comma + word(test);
+  for (const auto* head : {"points", "of", "problem"})
+    out += comma + word(head);
+  out += "\r\n";
   for (const auto& row : table.rows) {
     out += field(row.program);
     for (const auto* cell : row.cells)
-      out += "," + points(cell);
-    out += fmt::format(",{},{},{}\r\n", row.points, row.points_of, field(problem(row)));
+      out += comma + points(cell);
+    out += fmt::format("{0}{1}{0}{2}{0}{3}\r\n", comma, row.points, row.points_of,
+                       field(problem(row)));
   }
   return out;
 }

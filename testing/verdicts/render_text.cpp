@@ -4,6 +4,7 @@
 #include "testing/verdicts/table.h"
 
 #include <algorithm>
+#include <array>
 #include <fmt/format.h>
 
 namespace orb::testing {
@@ -24,34 +25,51 @@ std::string indented(std::string_view text, std::string_view before) {
   return out;
 }
 
-/// `passed` and its sisters as people find them at a glance.
-std::string verdict_words(Verdict verdict, Style style) {
-  switch (verdict) {
-  case Verdict::Passed: return style.paint(Role::Good, "ok   ");
-  case Verdict::Failed: return style.paint(Role::Error, "FAIL ");
-  case Verdict::Error: return style.paint(Role::Error, "ERROR");
-  }
-  return {};
+std::string padded(std::string_view text, std::size_t width) {
+  const auto taken = code_points(text);
+  return std::string(text) + std::string(width > taken ? width - taken : 0, ' ');
 }
 
-std::string details(const GroupResult& group, const CaseResult& one, Style style) {
+/// Words of a language, all as wide as the widest.
+template <std::size_t N>
+std::array<std::string, N> aligned(const std::array<std::string_view, N>& words, const Say& say) {
+  std::array<std::string, N> said;
+  std::size_t width = 0;
+  for (std::size_t i = 0; i < N; ++i) {
+    said[i] = say(words[i]);
+    width = std::max(width, code_points(said[i]));
+  }
+  for (auto& word : said)
+    word = padded(word, width);
+  return said;
+}
+
+/// `passed` and its sisters as people find them at a glance.
+std::string verdict_words(Verdict verdict, Style style, const Say& say) {
+  const auto words = aligned<3>({"ok", "FAIL", "ERROR"}, say);
+  return style.paint(verdict == Verdict::Passed ? Role::Good : Role::Error,
+                     words[static_cast<std::size_t>(verdict)]);
+}
+
+std::string details(const GroupResult& group, const CaseResult& one, Style style, const Say& say) {
   std::string out;
   if (one.verdict == Verdict::Error)
     return indented(to_terminal_text(one.problem), "  ");
+  const auto [seen, ran, rerun] = aligned<3>({"seen:", "ran:", "rerun:"}, say);
   for (const auto& miss : one.misses) {
     out += fmt::format("  {}:{}: {}\n", shown_name(group.file), miss.line,
                        style.paint(Role::Bold, miss.expected));
-    out += fmt::format("    seen:  {}\n", miss.seen);
+    out += fmt::format("    {} {}\n", seen, say(miss.seen));
     if (!miss.where.empty())
-      out += fmt::format("    ran:   {}\n", to_printable(miss.where));
+      out += fmt::format("    {} {}\n", ran, to_printable(miss.where));
   }
   if (!one.again.empty())
-    out += fmt::format("    rerun: {}\n", shown_name(one.again));
+    out += fmt::format("    {} {}\n", rerun, shown_name(one.again));
   return out;
 }
 
 /// What is said after the name of a test: which program, how many of its runs, which seeds.
-std::string about(const GroupResult& group, bool with_program) {
+std::string about(const GroupResult& group, bool with_program, const Say& say) {
   std::string out = with_program ? fmt::format(", {}", shown_name(group.program)) : std::string();
   const auto failed = static_cast<std::uint64_t>(
       std::count_if(group.cases.begin(), group.cases.end(),
@@ -59,19 +77,20 @@ std::string about(const GroupResult& group, bool with_program) {
   if (group.cases.size() < 2)
     return group.cases.empty() || group.cases.front().seed == 1
                ? out
-               : fmt::format("{}, seed {}", out, group.cases.front().seed);
+               : fmt::format("{}, {}", out, say(fmt::format("seed {}", group.cases.front().seed)));
   if (failed == 0)
-    return fmt::format("{}, {}", out, plural(group.cases.size(), "run"));
+    return fmt::format("{}, {}", out, say(plural(group.cases.size(), "run")));
   if (group.verdict() == Verdict::Error)
     return out;
   auto seeds = failed_seeds(group);
   if (seeds.size() > longest_seeds)
     seeds = seeds.substr(0, seeds.rfind(',', longest_seeds)) + ", …";
-  return fmt::format("{}, {} of {} runs: seed{} {}", out, failed, group.cases.size(),
-                     failed == 1 ? "" : "s", seeds);
+  return fmt::format("{}, {}", out,
+                     say(fmt::format("{} of {} runs: seed{} {}", failed, group.cases.size(),
+                                     failed == 1 ? "" : "s", seeds)));
 }
 
-std::string cell_text(const GroupResult* cell) {
+std::string_view cell_text(const GroupResult* cell) {
   if (cell == nullptr || cell->cases.empty())
     return "";
   switch (cell->verdict()) {
@@ -82,47 +101,45 @@ std::string cell_text(const GroupResult* cell) {
   return "";
 }
 
-std::string padded(std::string_view text, std::size_t width) {
-  const auto taken = code_points(text);
-  return std::string(text) + std::string(width > taken ? width - taken : 0, ' ');
-}
-
-std::string draw(const Table& table, Style style) {
-  std::size_t first = std::string_view("program").size();
+std::string draw(const Table& table, Style style, const Say& say) {
+  const auto program = say("program");
+  auto first = code_points(program);
+  const std::size_t narrowest =
+      std::max({code_points("error"), code_points(say("FAIL")), code_points(say("error"))});
   for (const auto& row : table.rows)
     first = std::max(first, code_points(shown_name(row.program)));
   auto heads = table.tests;
   for (auto& head : heads)
-    head = to_printable(head);
+    head = to_printable(say(head));
   std::size_t width = first;
   for (const auto& head : heads)
-    width += 2 + std::max<std::size_t>(code_points(head), 5);
+    width += 2 + std::max(code_points(head), narrowest);
   const bool numbered = width + 10 > widest_table;
   for (std::size_t i = 0; numbered && i < heads.size(); ++i)
     heads[i] = std::to_string(i + 1);
 
-  std::string out = style.paint(Role::Bold, padded("program", first));
+  std::string out = style.paint(Role::Bold, padded(program, first));
   for (const auto& head : heads)
-    out += "  " + style.paint(Role::Bold, padded(head, 5));
-  out += "  " + style.paint(Role::Bold, "points") + "\n";
+    out += "  " + style.paint(Role::Bold, padded(head, narrowest));
+  out += "  " + style.paint(Role::Bold, say("points")) + "\n";
   for (const auto& row : table.rows) {
     out += padded(shown_name(row.program), first);
     for (std::size_t i = 0; i < heads.size(); ++i) {
       const auto text =
-          padded(cell_text(row.cells[i]), std::max<std::size_t>(5, code_points(heads[i])));
+          padded(say(cell_text(row.cells[i])), std::max(narrowest, code_points(heads[i])));
       const bool good = row.cells[i] == nullptr || row.cells[i]->verdict() == Verdict::Passed;
       out += "  " + style.paint(good ? Role::Good : Role::Error, text);
     }
     out += fmt::format("  {}/{}\n", row.points, row.points_of);
   }
   for (std::size_t i = 0; numbered && i < heads.size(); ++i)
-    out += fmt::format("{}: {}\n", i + 1, to_printable(table.tests[i]));
+    out += fmt::format("{}: {}\n", i + 1, to_printable(say(table.tests[i])));
   return out;
 }
 
 /// Who handed in nothing.
-std::string missing_words(const Results& results) {
-  std::string text = "without a program: ";
+std::string missing_words(const Results& results, const Say& say) {
+  auto text = say("without a program:") + " ";
   for (std::size_t i = 0; i < results.missing.size(); ++i)
     text += (i == 0 ? "" : ", ") + shown_name(results.missing[i]);
   return text;
@@ -130,7 +147,7 @@ std::string missing_words(const Results& results) {
 
 } // namespace
 
-std::string render_text(const Results& results, Listing listing, Style style) {
+std::string render_text(const Results& results, Listing listing, Style style, const Say& say) {
   const auto table = table_of(results);
   const bool many = !table.rows.empty();
   std::string out;
@@ -142,34 +159,34 @@ std::string render_text(const Results& results, Listing listing, Style style) {
     if (failure == nullptr && (listing == Listing::Failures || many))
       continue;
     const bool is_new = failure == nullptr || told.is_new(group, *failure);
-    const auto verdict = verdict_words(group.verdict(), style);
+    const auto verdict = verdict_words(group.verdict(), style, say);
     if (many && failure != nullptr && failure->verdict == Verdict::Error) {
       if (is_new)
         out += fmt::format("{} {}\n", verdict, shown_name(group.program)) +
-               details(group, *failure, style);
+               details(group, *failure, style, say);
       continue;
     }
     out += fmt::format("{} {}:{}: {}{}\n", verdict, shown_name(group.file), group.line,
-                       to_printable(group.test), about(group, many));
+                       to_printable(say(group.test)), about(group, many, say));
     if (failure != nullptr && is_new)
-      out += details(group, *failure, style);
+      out += details(group, *failure, style, say);
   }
   if (many)
-    out += (out.empty() ? "" : "\n") + draw(table, style);
+    out += (out.empty() ? "" : "\n") + draw(table, style, say);
   if (!results.missing.empty())
-    out += missing_words(results) + "\n";
-  return out + render_summary(results) + "\n";
+    out += missing_words(results, say) + "\n";
+  return out + render_summary(results, say) + "\n";
 }
 
-std::string render_summary(const Results& results) {
+std::string render_summary(const Results& results, const Say& say) {
   const auto totals = totals_of(results);
   if (totals.cases == 0)
-    return results.cases == 0 ? "no tests" : "no cases in this shard";
-  auto out = fmt::format("{} of {} passed", totals.tests_passed, plural(totals.tests, "test"));
+    return say(results.cases == 0 ? "no tests" : "no cases in this shard");
+  auto out = say(fmt::format("{} of {} passed", totals.tests_passed, plural(totals.tests, "test")));
   if (totals.points_of != static_cast<std::int64_t>(totals.tests))
-    out += fmt::format(", {} of {} points", totals.points, totals.points_of);
+    out += ", " + say(fmt::format("{} of {} points", totals.points, totals.points_of));
   if (totals.cases != totals.tests)
-    out += fmt::format(", {} of {} runs", totals.cases - totals.failed, totals.cases);
+    out += ", " + say(fmt::format("{} of {} runs", totals.cases - totals.failed, totals.cases));
   return out;
 }
 

@@ -5,6 +5,7 @@
 #include "report/page.h"
 #include "report/svg.h"
 #include "testing/run_suite.h"
+#include "testing/verdicts/pupils.h"
 #include "testing/verdicts/render.h"
 #include "testing/verdicts/table.h"
 
@@ -63,21 +64,18 @@ std::string replay_page(const Footage& footage, std::string_view title) {
                           : report::report_page(footage.front().journey, title);
 }
 
-/// What was tested: a program, or all those of a room.
-std::string subject(const Group& group, const GroupResult& told) {
-  return group.room.empty() ? told.program : fmt::format("a room of {} balls", group.room.size());
-}
-
 /// How a program did in all of its tests.
 struct Pupil {
   std::string picture; ///< of its first run that failed, else of its first
-  std::string page;    ///< what a click leads to
+  std::string page;    ///< what a click on it leads to
+  std::string own;     ///< the page to hand back
 };
 
 class Report {
 public:
-  Report(const Suite& suite, const Results& results, Pages& pages)
-      : suite_(suite), results_(results), pages_(pages) {}
+  Report(const Suite& suite, const Results& results, Pages& pages,
+         const std::map<std::string, std::string>& names, const Speech& speech)
+      : suite_(suite), results_(results), pages_(pages), names_(names), speech_(speech) {}
 
   bool write() {
     std::string failed;
@@ -92,25 +90,61 @@ public:
         if (!add_group(i, wanted == Verdict::Passed ? passed : failed))
           return false;
       }
-    auto page = fmt::format("{}<html lang=\"en\"><head><meta charset=\"utf-8\">"
+    const auto table = table_of(results_);
+    if (!write_pupils(table))
+      return false;
+    const auto summary = escape_markup(render_summary(results_, speech_.say));
+    auto page = fmt::format("{}<html lang=\"{}\"><head><meta charset=\"utf-8\">"
                             "<meta name=\"viewport\" content=\"width=device-width\">"
                             "<title>{}</title><style>{}</style></head>\n<body>\n<h1>{}</h1>\n",
-                            report_mark, escape_markup(render_summary(results_)), style,
-                            escape_markup(render_summary(results_)));
-    page += table() + failed;
+                            report_mark, speech_.code, summary, style, summary);
+    page += draw(table) + failed;
     if (!passed.empty())
-      page += fmt::format("<details{}><summary>{} passed</summary>\n{}</details>\n",
-                          failed.empty() ? " open" : "", plural(passes, "test"), passed);
+      page += fmt::format("<details{}><summary>{}</summary>\n{}</details>\n",
+                          failed.empty() ? " open" : "",
+                          say(fmt::format("{} passed", plural(passes, "test"))), passed);
     if (left_out_ > 0)
-      page +=
-          fmt::format("<p class=\"dim\">Without a picture: {}.</p>\n", plural(left_out_, "run"));
+      page += fmt::format("<p class=\"dim\">{}</p>\n",
+                          say(fmt::format("without a picture: {}", plural(left_out_, "run"))));
     return pages_.write("index.html", page + "</body></html>\n");
   }
 
 private:
+  std::string say(std::string_view english) const { return escape_markup(speech_.say(english)); }
+
+  /// What was tested: a program, or all those of a room.
+  std::string subject(const Group& group, const GroupResult& told) const {
+    return group.room.empty() ? told.program
+                              : speech_.say(fmt::format("a room of {} balls", group.room.size()));
+  }
+
+  std::string name_of(const Table::Row& row) const {
+    const auto known = names_.find(row.program);
+    return known == names_.end() ? row.program : known->second;
+  }
+
+  /// A page for each pupil, and certificates for those who passed.
+  bool write_pupils(const Table& table) {
+    std::vector<std::string> passed;
+    for (std::size_t i = 0; i < table.rows.size(); ++i) {
+      const auto& row = table.rows[i];
+      const auto page = fmt::format("pupils/{:06}.html", i);
+      if (!pages_.write(page, pupil_page(name_of(row), row, shown_, speech_)))
+        return false;
+      pupils_[row.program].own = page;
+      const bool all = std::all_of(row.cells.begin(), row.cells.end(), [](const auto* cell) {
+        return cell != nullptr && !cell->cases.empty() && cell->verdict() == Verdict::Passed;
+      });
+      if (all)
+        passed.push_back(name_of(row));
+    }
+    certified_ = !passed.empty();
+    return passed.empty() ||
+           pages_.write("certificates.html", certificates(passed, table, speech_));
+  }
+
   /// A pupil in each field, who has the fewest points first; below it who did what.
-  std::string table() const {
-    const auto table = table_of(results_);
+  std::string draw(const Table& table) const {
     if (table.rows.empty())
       return {};
     std::vector<const Table::Row*> rows;
@@ -124,14 +158,18 @@ private:
     std::string out = "<div class=\"grid\">\n";
     for (const auto* row : rows)
       out += field(*row);
-    out += "</div>\n<table>\n<tr><th>program</th>";
+    out += "</div>\n";
+    if (certified_)
+      out += fmt::format("<p><a href=\"certificates.html\">{}</a></p>\n", say("Certificates"));
+    out += fmt::format("<table>\n<tr><th>{}</th>", say("program"));
     for (const auto& test : table.tests)
-      out += fmt::format("<th>{}</th>", escape_markup(test));
-    out += "<th>points</th></tr>\n";
+      out += fmt::format("<th>{}</th>", say(test));
+    out += fmt::format("<th>{}</th></tr>\n", say("points"));
     for (const auto* row : rows) {
-      out += fmt::format("<tr><td>{}</td>", escape_markup(row->program));
+      out += fmt::format("<tr><td><a href=\"{}\">{}</a></td>", pupils_.at(row->program).own,
+                         escape_markup(row->program));
       for (const auto* cell : row->cells)
-        out += mark(cell, "td", cell == nullptr ? "" : to_string(cell->verdict()));
+        out += mark(cell, "td", cell == nullptr ? "" : say(to_string(cell->verdict())));
       out += fmt::format("<td>{}/{}</td></tr>\n", row->points, row->points_of);
     }
     return out + "</table>\n";
@@ -144,26 +182,23 @@ private:
   }
 
   /// A result that leads to where it is told.
-  static std::string mark(const GroupResult* cell, std::string_view element,
-                          std::string_view text) {
+  std::string mark(const GroupResult* cell, std::string_view element, std::string_view text) const {
     if (cell == nullptr || cell->cases.empty())
       return fmt::format("<{0}></{0}>", element);
     return fmt::format("<{0} class=\"{1}\"><a href=\"#g{2}\" title=\"{3}\">{4}</a></{0}>", element,
-                       to_string(cell->verdict()), cell->first, escape_markup(cell->test), text);
+                       to_string(cell->verdict()), cell->first, say(cell->test), text);
   }
 
   std::string field(const Table::Row& row) const {
-    const auto found = pupils_.find(row.program);
-    const auto pupil = found == pupils_.end() ? Pupil{} : found->second;
+    const auto& pupil = pupils_.at(row.program);
     auto out = fmt::format("<div class=\"pupil {}\">", failed(row) ? "failed" : "passed");
     if (pupil.picture.empty())
-      out += "<p class=\"none\">no run</p>";
+      out += fmt::format("<p class=\"none\">{}</p>", say("no run"));
     else
-      out +=
-          fmt::format("<a href=\"{}\"><img src=\"{}\" alt=\"the path of {}\" loading=\"lazy\"></a>",
-                      pupil.page, pupil.picture, escape_markup(row.program));
-    out += fmt::format("<p><b>{}</b> {}/{}</p><p class=\"marks\">", escape_markup(row.program),
-                       row.points, row.points_of);
+      out += fmt::format("<a href=\"{}\"><img src=\"{}\" alt=\"{}\" loading=\"lazy\"></a>",
+                         pupil.page, pupil.picture, say("the path of the ball"));
+    out += fmt::format("<p><a href=\"{}\"><b>{}</b></a> {}/{}</p><p class=\"marks\">", pupil.own,
+                       escape_markup(name_of(row)), row.points, row.points_of);
     for (const auto* cell : row.cells)
       out +=
           mark(cell, "span",
@@ -178,14 +213,14 @@ private:
     body += fmt::format(
         "<h2 id=\"g{}\"><span class=\"{}\">{}</span> {}, {} <span class=\"dim\">{}:{}"
         "</span></h2>\n",
-        told.first, word, word, escape_markup(told.test),
+        told.first, word, say(word), say(told.test),
         escape_markup(subject(suite_.groups[index], told)), escape_markup(told.file), told.line);
     // Each run of a program that cannot run would say the same.
     const auto* failure = first_failure(told);
     if (failure != nullptr && failure->verdict == Verdict::Error) {
       body += once_.is_new(told, *failure)
                   ? fmt::format("<pre>{}</pre>\n", escape_markup(failure->problem))
-                  : std::string("<p class=\"dim\">as above</p>\n");
+                  : fmt::format("<p class=\"dim\">{}</p>\n", say("as above"));
       return true;
     }
     body += "<div class=\"runs\">\n";
@@ -199,7 +234,8 @@ private:
       }
     body += "</div>\n";
     if (omitted > 0)
-      body += fmt::format("<p class=\"dim\">{} also failed.</p>\n", plural(omitted, "run"));
+      body += fmt::format("<p class=\"dim\">{}</p>\n",
+                          say(fmt::format("{} failed, too", plural(omitted, "run"))));
     return true;
   }
 
@@ -220,7 +256,8 @@ private:
     const auto& footage = one.footage == nullptr ? virtual_run : *one.footage;
     ++pictures_;
     const auto picture = name + ".svg";
-    if (!pages_.write(picture, drawing(footage)))
+    const auto drawn = drawing(footage);
+    if (!pages_.write(picture, drawn))
       return false;
     std::string replay;
     if (failed && replays_ < most_replays) {
@@ -230,28 +267,32 @@ private:
       if (!pages_.write(replay, replay_page(footage, title)))
         return false;
     }
+    shown_.try_emplace(&told, Shown{drawn, replay});
     auto& pupil = pupils_[told.program];
     if (pupil.picture.empty())
-      pupil = {picture, replay.empty() ? fmt::format("#g{}", told.first) : replay};
+      pupil = {picture, replay.empty() ? fmt::format("#g{}", told.first) : replay, {}};
     body += card(one, picture, replay);
     return true;
   }
 
-  static std::string card(const CaseResult& one, const std::string& picture,
-                          const std::string& replay) {
+  std::string card(const CaseResult& one, const std::string& picture,
+                   const std::string& replay) const {
     auto out = fmt::format("<div class=\"run {}\">", to_string(one.verdict));
     if (!replay.empty())
       out += fmt::format("<a href=\"{}\">", replay);
     if (!picture.empty())
-      out += fmt::format("<img src=\"{}\" alt=\"the path of the ball\" loading=\"lazy\">", picture);
+      out += fmt::format("<img src=\"{}\" alt=\"{}\" loading=\"lazy\">", picture,
+                         say("the path of the ball"));
     if (!replay.empty())
       out += "</a>";
-    out += fmt::format("<p><b class=\"{0}\">{0}</b> seed {1}, {2}", to_string(one.verdict),
-                       one.seed, words(one.lasted));
-    out += replay.empty() ? "</p>" : fmt::format(" · <a href=\"{}\">replay</a></p>", replay);
+    const auto word = to_string(one.verdict);
+    out += fmt::format("<p><b class=\"{}\">{}</b> {}, {}", word, say(word),
+                       say(fmt::format("seed {}", one.seed)), words(one.lasted));
+    out += replay.empty() ? "</p>"
+                          : fmt::format(" · <a href=\"{}\">{}</a></p>", replay, say("replay"));
     for (const auto& miss : one.misses)
       out += fmt::format("<p><code>{}</code><br><span class=\"seen\">{}</span></p>",
-                         escape_markup(miss.expected), escape_markup(miss.seen));
+                         escape_markup(miss.expected), say(miss.seen));
     if (!one.again.empty())
       out += fmt::format("<p><code>{}</code></p>", escape_markup(one.again));
     if (!one.problem.empty())
@@ -262,7 +303,11 @@ private:
   const Suite& suite_;
   const Results& results_;
   Pages& pages_;
+  const std::map<std::string, std::string>& names_;
+  const Speech& speech_;
   std::map<std::string, Pupil> pupils_; ///< by their programs
+  std::map<const GroupResult*, Shown> shown_;
+  bool certified_ = false;
   ToldOnce once_;
   std::size_t pictures_ = 0;
   std::size_t replays_ = 0;
@@ -271,8 +316,9 @@ private:
 
 } // namespace
 
-bool write_report(const Suite& suite, const Results& results, Pages& pages) {
-  return Report(suite, results, pages).write();
+bool write_report(const Suite& suite, const Results& results, Pages& pages,
+                  const std::map<std::string, std::string>& names, const Speech& speech) {
+  return Report(suite, results, pages, names, speech).write();
 }
 
 } // namespace orb::testing

@@ -2,7 +2,9 @@
 
 #include "testing/results.h"
 #include "testing/suite.h"
+#include "testing/verdicts/render.h"
 
+#include <map>
 #include <string>
 #include <string_view>
 
@@ -21,7 +23,9 @@ extern const std::string_view report_mark;
 
 /// Writes a picture of each run, the replay of each failure, and last the page that shows them all:
 /// `index.html`. Of a great many runs the first have pictures, and those that failed. Runs that are
-/// shown are run once more.
-bool write_report(const Suite& suite, const Results& results, Pages& pages);
+/// shown are run once more. Where several programs were tested, each has a page to hand back, in
+/// `pupils/`, headed by its name in `names`; `certificates.html` is for those that passed.
+bool write_report(const Suite& suite, const Results& results, Pages& pages,
+                  const std::map<std::string, std::string>& names = {}, const Speech& speech = {});
 
 } // namespace orb::testing

@@ -68,19 +68,19 @@ Object.defineProperty(navigator, 'serial', { value: { requestPort: async () => p
 """
 mock_bluetooth = """
 class Characteristic extends EventTarget {
-  constructor(service, name) { super(); Object.assign(this, { service, name }); }
+  constructor(robot, service, name) { super(); Object.assign(this, { robot, service, name }); }
   async writeValueWithResponse(value) {
     const bytes = new Uint8Array(value.buffer ? value.buffer.slice(value.byteOffset, value.byteOffset + value.byteLength) : value);
     if (bytes.length > 20) throw new DOMException('too long', 'InvalidModificationError');
     (window.written ??= []).push([this.name, bytes.length]);
-    if (!window.greeted) return; // what opens the robot to commands
-    if ((await fetch('/wire/write', { method: 'POST', body: bytes })).status !== 200) device.gatt.disconnect();
+    if (!this.robot.greeted) return; // what opens the robot to commands
+    if ((await fetch('/wire/write', { method: 'POST', body: bytes })).status !== 200) this.robot.gatt.disconnect();
   }
   async startNotifications() {
-    window.greeted = true;
-    (async () => { for (;;) {
+    this.robot.greeted = true;
+    (async () => { while (this.robot.gatt.connected) {
       const answer = await fetch('/wire/read');
-      if (answer.status !== 200) return device.gatt.disconnect();
+      if (answer.status !== 200) return this.robot.gatt.disconnect();
       const bytes = await answer.arrayBuffer();
       for (let i = 0; i < bytes.byteLength; i += 20) {
         this.value = new DataView(bytes.slice(i, i + 20));
@@ -89,15 +89,19 @@ class Characteristic extends EventTarget {
     } })();
   }
 }
-const known = {};
-const device = Object.assign(new EventTarget(), { name: 'BB-1234', gatt: {
-  connected: false,
-  async connect() {
-    this.connected = true;
-    return { getPrimaryService: async service => ({ getCharacteristic: async name => known[name] ??= new Characteristic(service, name) }) };
-  },
-  disconnect() { if (this.connected) { this.connected = false; device.dispatchEvent(new Event('gattserverdisconnected')); } },
-} });
+const robot = name => {
+  const known = {}, made = Object.assign(new EventTarget(), { name, id: name, greeted: false, gatt: {
+    connected: false,
+    async connect() {
+      if (window.out_of_reach === name) throw new DOMException('Connection attempt failed.', 'NetworkError');
+      this.connected = true;
+      return { getPrimaryService: async service => ({ getCharacteristic: async name => known[name] ??= new Characteristic(made, service, name) }) };
+    },
+    disconnect() { if (this.connected) { this.connected = false; made.dispatchEvent(new Event('gattserverdisconnected')); } },
+  } });
+  return made;
+};
+const device = robot('BB-1234');
 Object.defineProperty(navigator, 'bluetooth', { value: { requestDevice: async () => device } });
 """
 
@@ -894,6 +898,50 @@ class Playground(unittest.TestCase):
         page.wait(f"{by_id('flash-cancel')}.hidden", 3)
         self.assertIn("nothing was sent", page.evaluate(f"{by_id('flash-status')}.textContent"))
         self.assertFalse(page.evaluate(f"{by_id('flash-serial')}.disabled"))
+
+    def test_a_class_flashes_one_robot_after_the_other(self):
+        box = mock_bluetooth.replace("{ requestDevice: async () => device }", "{ requestDevice: async () => robot(window.chosen) }") + "window.chosen = 'BB-1111';"
+        ball = ["--firmware", "bb-8"]
+        rows = "Object.fromEntries([...document.querySelectorAll('#robots > li')].map(row => [row.querySelector('b').textContent, [row.dataset.state, row.querySelector('.words').textContent]]))"
+        state = lambda name: f"({rows})['{name}']?.[0]"
+        idle = f"{by_id('flash-cancel')}.hidden && !{by_id('flash-next')}.disabled"
+        def anew():
+            new = site_server.Handler.wire = site_server.Wire(orb, *ball)
+            self.addCleanup(new.close)
+            return new
+        def send_to(name, ended):
+            page.evaluate(f"window.chosen = '{name}'")
+            page.evaluate(click("flash-next"))
+            page.wait(f"{state(name)} === 'busy'", 10)
+            self.assertTrue(page.evaluate(f"{by_id('robots')}.inert"), "nobody sends to two at once")
+            page.wait(f"{state(name)} === '{ended}' && {idle}", 60)
+
+        page, wire = self.flash("bluetooth", box, *ball, files={"a.macro": "rgb 0, 255, 0\ndelay 1s\n" * 9})
+        self.assertIn("macro", page.evaluate(rows)["BB-1111"][1])
+        wire = anew()
+        send_to("BB-3333", "done")
+        self.assertGreater(len(wire.sent), 60)
+        anew()
+        page.evaluate("window.out_of_reach = 'BB-2222'")
+        send_to("BB-2222", "failed")
+        self.assertIn("cannot connect to BB-2222", page.evaluate(rows)["BB-2222"][1])
+        if picture_folder:
+            page.evaluate(f"{by_id('robots')}.scrollIntoView()")
+            page.picture(os.path.join(picture_folder, "robots.png"))
+
+        wire = anew()
+        page.evaluate("window.out_of_reach = ''; [...document.querySelectorAll('#robots > li')].find(row => row.textContent.includes('BB-2222')).querySelector('button').click()")
+        page.wait(f"{state('BB-2222')} === 'done' && {idle}", 60)
+        self.assertGreater(len(wire.sent), 60)
+        anew()
+        send_to("BB-1111", "done")
+        self.assertEqual({name: state for name, (state, _) in page.evaluate(rows).items()}, dict.fromkeys(["BB-1111", "BB-2222", "BB-3333"], "done"), "each is listed once")
+        self.assertEqual(page.complaints, [])
+
+    def test_ports_without_names_are_numbered(self):
+        page, wire = self.flash("serial", mock_serial)
+        self.assertEqual(page.evaluate("document.querySelector('#robots b').textContent"), "Ball 1")
+        self.assertFalse(page.evaluate(f"{by_id('flash-next')}.hidden"))
 
     def test_a_robot_is_run_and_stopped_and_heard(self):
         page, wire = self.flash("serial", mock_serial, files={"a.bas": '10 print "on the ball"\n20 delay 200\n30 goto 10\n'})

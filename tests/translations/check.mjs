@@ -6,7 +6,7 @@ import { make_catalogue } from "../../playground/page/catalogue.js";
 import { for_page } from "../../playground/task.mjs";
 
 const root = resolve(process.argv[2] ?? "."), read = path => readFileSync(join(root, path), "utf8");
-const sections = ["findings", "page", "blocks", "lessons"];
+const sections = ["findings", "verdicts", "page", "blocks", "lessons"];
 const files = readdirSync(join(root, "translations")).filter(name => name.endsWith(".json")).sort();
 const troubles = [];
 const trouble = (where, words) => troubles.push(`${where}: ${words}`);
@@ -64,11 +64,13 @@ for (const text of keys.lessons) if (!needed.has(text)) trouble("lessons", `no l
 
 // ---- the page and the blocks: what is translated stands in a source (findings: tests/slips) ----
 const sources = folder => readdirSync(join(root, folder), { withFileTypes: true }).filter(one => one.isFile() && /\.(m?js|html|cpp|h|def)$/.test(one.name)).map(one => read(`${folder}/${one.name}`));
-const source = ["playground", "playground/page", "playground/page/blocks", "report", "report/page", "run", "base", "spec", "structured/text"].flatMap(sources).join("\n");
+const source = ["playground", "playground/page", "playground/page/blocks", "report", "report/page", "run", "base", "spec", "structured/text", "testing", "testing/verdicts", "cli/input", "disk"].flatMap(sources).join("\n");
 const pieces = key => key.replace(/^1 /, "").split(/\{\w+\}/).map(piece => piece.replace(/^[^\p{L}]+|[^\p{L}]+$/gu, "")).filter(Boolean);
-for (const section of ["page", "blocks"])
+/** Sentences of verdicts are put together from smaller pieces than those between holes: `1 test` and `passed`. */
+const words = key => pieces(key).flatMap(piece => piece.split(/[^\p{L}]+/u)).filter(Boolean);
+for (const section of ["page", "blocks", "verdicts"])
   for (const key of keys[section])
-    for (const piece of pieces(key)) if (!source.includes(piece)) trouble(section, `no source says “${piece}”: ${key}`);
+    for (const piece of section === "verdicts" ? words(key) : pieces(key)) if (!source.includes(piece)) trouble(section, `no source says “${piece}”: ${key}`);
 
 // ---- the rules by which texts are found are those of base/catalogue.h ----
 const { texts, cases } = JSON.parse(read("tests/translations/cases.json"));

@@ -328,7 +328,7 @@ void MacroExecutive::perform(const MacroStep& step) {
                      : static_cast<Stabilization>(value[0]));
     return wait_ms(value[1]);
   case MacroCommand::SetHeading:
-    host_->drive(SetHeading{value[0] % spec::ball::full_circle});
+    host_->drive(SetHeading{0}); // whatever the operand: M-16 in docs/macros.md
     return wait_ms(value[1]);
   case MacroCommand::Roll:
   case MacroCommand::Roll2: roll(value[0], value[1]); return wait_ms(value[2]);

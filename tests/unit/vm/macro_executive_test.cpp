@@ -229,7 +229,7 @@ TEST_F(Executive, SleepEndsTheMacro) {
 TEST_F(Executive, SettersReachTheBall) {
   EXPECT_EQ(
       run("FF 00 03 02 00 04 01 67 00 09 44 00 0A 01 55 02 66 00 13 80 27 01 02 03 04 05 06 00"),
-      "0 stabilize 2\n0 heading 359\n0 back 68\n0 raw 1 85 2 102\n0 rate 104\n"
+      "0 stabilize 2\n0 heading 0\n0 back 68\n0 raw 1 85 2 102\n0 rate 104\n"
       "0 collision 1 2 3 4 5 6\n0 ended 7\n");
 }
 
