@@ -75,6 +75,12 @@ inline bool is_error(const Diagnostic& diagnostic) {
 }
 bool any_error(const std::vector<Diagnostic>& findings);
 
+/// Whether there is no program with such a finding. A warning that became an error, as it comes
+/// true for certain, is of a program that can be run to see how it stops.
+inline bool keeps_from_building(const Diagnostic& diagnostic) {
+  return is_error(diagnostic) && diagnostic.rule->severity == Severity::Error;
+}
+
 /// The findings of one file, as the renderers take them.
 struct FileFindings {
   const Source* source = nullptr;

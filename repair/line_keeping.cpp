@@ -6,6 +6,7 @@
 #include "repair/fill.h"
 
 #include <algorithm>
+#include <array>
 #include <string>
 #include <string_view>
 
@@ -48,7 +49,50 @@ bool LineRepair::keeps_meaning(std::string_view statement) const {
                                    mean_the_same("not", token.text));
       }))
     return false; // the opposite
-  return keeps_names(statement) && !adds_condition(statement);
+  return keeps_names(statement) && !invents_macro(statement) && !adds_condition(statement);
+}
+
+/// Whether what is computed still is: `rnd 255` is not 255.
+bool LineRepair::keeps_functions(std::string_view lines) const {
+  if (!is_program())
+    return true;
+  const auto said = split(line_, judge_.language).tokens;
+  const auto kept = tokens_of(lines, judge_.language);
+  const auto count = [](const Tokens& tokens, std::string_view word) {
+    return std::count_if(tokens.begin(), tokens.end(),
+                         [&](const Token& token) { return equal_words(token.text, word); });
+  };
+  constexpr std::array<std::string_view, 3> functions = {"abs", "rnd", "sqrt"};
+  return std::all_of(functions.begin(), functions.end(),
+                     [&](std::string_view word) { return count(kept, word) >= count(said, word); });
+}
+
+/// Whether two numbers became one: `130 136` are two values that lack a comma, `10 000` is one.
+bool LineRepair::joins_numbers(std::string_view lines) const {
+  if (!is_program())
+    return false;
+  const auto said = split(line_, judge_.language).tokens;
+  const auto kept = tokens_of(lines, judge_.language);
+  for (std::size_t i = 1; i < said.size(); ++i)
+    if (said[i - 1].is_number() && said[i].is_number() &&
+        said[i].text.find_first_not_of('0') != std::string::npos &&
+        has_token(kept, said[i - 1].text + said[i].text))
+      return true;
+  return false;
+}
+
+/// Whether a macro gets a number that nobody wrote: `play(true)` names none.
+bool LineRepair::invents_macro(std::string_view statement) const {
+  constexpr std::string_view macrun = "macrun ";
+  if (!statement.starts_with(macrun))
+    return false;
+  const auto said = split(line_, judge_.language).tokens;
+  const bool sounds = std::any_of(said.begin(), said.end(), [](const Token& token) {
+    return holds("sound sounds music audio speaker tone song", token.text);
+  });
+  return sounds || (is_digit(statement[macrun.size()]) &&
+                    std::none_of(said.begin(), said.end(),
+                                 [](const Token& token) { return token.is_number(); }));
 }
 
 /// Whether something is called with a name of the program: `len(a)`.
@@ -130,8 +174,13 @@ bool LineRepair::keeps_names(std::string_view statement) const {
                      !has_word(judge_.words, word) && milliseconds_of(word) == 0;
   };
   const auto kept = tokens_of(statement, judge_.language);
+  const auto count = [](const Tokens& tokens, std::string_view word) {
+    return std::count_if(tokens.begin(), tokens.end(),
+                         [&](const Token& token) { return token.is(word); });
+  };
   return std::all_of(parts_.tokens.begin(), parts_.tokens.end(), [&](const Token& token) {
-    return !token.is_word() || !is_name(token.text) || has_token(kept, token.text);
+    return !token.is_word() || !is_name(token.text) ||
+           count(kept, token.text) >= count(parts_.tokens, token.text);
   });
 }
 

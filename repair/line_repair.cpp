@@ -32,7 +32,7 @@ bool names_a_file(std::string_view text) {
 std::size_t lasting_errors(const std::vector<Diagnostic>& findings) {
   return static_cast<std::size_t>(
       std::count_if(findings.begin(), findings.end(), [](const Diagnostic& one) {
-        return is_error(one) && !(one.fix && one.fix->safety == Safety::Safe);
+        return keeps_from_building(one) && !(one.fix && one.fix->safety == Safety::Safe);
       }));
 }
 
@@ -44,7 +44,8 @@ bool has_word(const std::vector<std::string_view>& words, std::string_view word)
 }
 
 std::size_t errors_in(const std::vector<Diagnostic>& findings) {
-  return static_cast<std::size_t>(std::count_if(findings.begin(), findings.end(), is_error));
+  return static_cast<std::size_t>(
+      std::count_if(findings.begin(), findings.end(), keeps_from_building));
 }
 
 LineRepair::LineRepair(const Source& source, const Judge& judge, const Scenery& scenery,
@@ -341,8 +342,8 @@ std::size_t LineRepair::errors_of(const std::vector<Diagnostic>& findings,
           return std::any_of(parts_.tokens.begin(), parts_.tokens.end(),
                              [&](const Token& token) { return token.text == word; });
         };
-        return is_error(one) && (one.rule->id != "unknown-name" ||
-                                 has(text.substr(one.span.begin, one.span.size())));
+        return keeps_from_building(one) && (one.rule->id != "unknown-name" ||
+                                            has(text.substr(one.span.begin, one.span.size())));
       }));
 }
 
@@ -350,7 +351,7 @@ std::optional<Accepted> LineRepair::attempt_line(const std::string& text, std::s
                                                  bool sure, bool keep) {
   const bool goes_on = text.ends_with(',') && !trim(line_).ends_with(','); // nothing follows
   if (text == line_ || goes_on || checks_ >= most_checks_ || !keeps_texts(text) ||
-      !keeps_leaving(text) || !parses(text))
+      !keeps_leaving(text) || !keeps_functions(text) || joins_numbers(text) || !parses(text))
     return std::nullopt;
   ++checks_;
   auto changed = context_.above;
@@ -366,7 +367,7 @@ std::optional<Accepted> LineRepair::attempt_line(const std::string& text, std::s
     open = open || one.rule->id == "unclosed-block" || one.rule->id == "block-end";
     if (one.span.begin < begin || one.span.begin > begin + text.size())
       continue;
-    if (is_error(one) && one.rule->id != "unclosed-block")
+    if (keeps_from_building(one) && one.rule->id != "unclosed-block")
       return std::nullopt;
     quiet = quiet && one.severity == Severity::Info;
   }

@@ -116,6 +116,9 @@ private:
   bool sets_name() const;
   bool adds_condition(std::string_view statement) const;
   bool keeps_names(std::string_view statement) const;
+  bool keeps_functions(std::string_view lines) const;
+  bool joins_numbers(std::string_view lines) const;
+  bool invents_macro(std::string_view statement) const;
   bool keeps_operands(std::string_view statement) const;
   bool keeps_meaning(std::string_view statement) const;
   bool attempt(const std::string& statement, std::string_view note, bool sure);

@@ -159,7 +159,7 @@ public:
     // From the last line up: what ends a block is mended before what begins it is judged.
     std::vector<Diagnostic*> first;
     for (auto& finding : findings_)
-      if (is_error(finding) && finding.span.begin <= source_.text().size() &&
+      if (keeps_from_building(finding) && finding.span.begin <= source_.text().size() &&
           first.size() < most_lines && is_to_mend(finding))
         first.push_back(&finding);
     std::stable_sort(first.begin(), first.end(), [](const Diagnostic* a, const Diagnostic* b) {
@@ -585,10 +585,10 @@ private:
     const Source then({}, apply_fixes(source_.text(), offered).text);
     const auto after = judge_.check(then.text());
     for (const auto& one : after)
-      if (is_error(one))
+      if (keeps_from_building(one))
         replace_end(then, one);
     if (std::any_of(after.begin(), after.end(), [&](const Diagnostic& one) {
-          return is_error(one) &&
+          return keeps_from_building(one) &&
                  std::none_of(findings_.begin(), findings_.end(), [&](const auto& was) {
                    return was.rule == one.rule && was.message == one.message;
                  });
@@ -599,15 +599,16 @@ private:
       lines.insert(line_of(*finding));
     std::set<const Diagnostic*> gone;
     for (const auto& finding : findings_)
-      if (is_error(finding) &&
+      if (keeps_from_building(finding) &&
           (!finding.fix || finding.rule->id == "block-end" ||
            finding.rule->id == "unclosed-block" ||
            (lines.contains(line_of(finding)) && is_piecemeal(*finding.fix))) &&
           !mended_.contains(&finding) &&
           std::none_of(after.begin(), after.end(), [&](const Diagnostic& one) {
-            return is_error(one) && ((one.rule == finding.rule && one.message == finding.message) ||
-                                     then.line(then.position(one.span.begin).line) ==
-                                         source_.line(line_of(finding)));
+            return keeps_from_building(one) &&
+                   ((one.rule == finding.rule && one.message == finding.message) ||
+                    then.line(then.position(one.span.begin).line) ==
+                        source_.line(line_of(finding)));
           }))
         gone.insert(&finding);
     std::erase_if(findings_, [&](const Diagnostic& one) { return gone.contains(&one); });

@@ -1,6 +1,7 @@
 #include "run/input.h"
 
 #include "assembler/assemble.h"
+#include "assembler/disassemble.h"
 #include "assembler/lint/lint.h"
 #include "base/text/text.h"
 #include "base/text/utf8.h"
@@ -66,7 +67,7 @@ void read_macro_source(Input& input, Lint lint) {
 /// Without the linter only what keeps a program from becoming lines is told.
 std::vector<Diagnostic> told(std::vector<Diagnostic> found, Lint lint) {
   if (lint == Lint::Off)
-    std::erase_if(found, [](const Diagnostic& one) { return !is_error(one); });
+    std::erase_if(found, [](const Diagnostic& one) { return !keeps_from_building(one); });
   return found;
 }
 
@@ -177,9 +178,34 @@ std::string_view language_of_text(std::string_view text) {
   return "structured";
 }
 
+bool holds_macro_bytes(std::string_view name) {
+  const auto content = content_of(name, {});
+  return content == Content::MacroBody || content == Content::MacroImage;
+}
+
+tl::expected<std::string, Failure> macro_source(std::string_view name, std::string_view bytes) {
+  if (bytes.empty())
+    return tl::unexpected(Failure{
+        ExitCode::BadInput, fmt::format("{}: the file is empty; expected a macro command", name)});
+  auto text = assembler::disassemble(as_bytes(bytes), content_of(name, {}) == Content::MacroImage
+                                                          ? assembler::Reading::Framed
+                                                          : assembler::Reading::Headerless);
+  if (!text)
+    return tl::unexpected(Failure{ExitCode::BadInput, fmt::format("{}: {}", name, text.error())});
+  return *std::move(text);
+}
+
+Failure not_text(std::string_view name) {
+  return {ExitCode::Usage,
+          fmt::format("{0} holds bytes, not text; `orb disasm {0} -o {1}.macro` makes a source of "
+                      "it",
+                      name, stem(name))};
+}
+
 Failure unknown_content(std::string_view name) {
   if (report::is_course(name))
-    return {ExitCode::Usage, fmt::format("{0} is a course; give it with `--course {0}`", name)};
+    return {ExitCode::Usage,
+            fmt::format("{0} is a course; `orb run PROGRAM --course {0}` drives through it", name)};
   if (has_ending(name, ".test"))
     return {ExitCode::Usage, fmt::format("{0} is a test; run it with `orb test {0}`", name)};
   if (has_ending(name, ".toml"))
@@ -189,8 +215,9 @@ Failure unknown_content(std::string_view name) {
                     "commands take its programs one by one",
                     name)};
   if (has_ending(name, ".stimulus"))
-    return {ExitCode::Usage,
-            fmt::format("{0} is a stimulus script; give it with `--stimulus {0}`", name)};
+    return {
+        ExitCode::Usage,
+        fmt::format("{0} is a stimulus script; `orb run PROGRAM --stimulus {0}` plays it", name)};
   return {ExitCode::Usage, fmt::format("cannot tell the language of {} from its name; give "
                                        "`--lang basic`, `--lang structured` or `--lang macro`",
                                        name)};

@@ -52,7 +52,18 @@ struct SourceFile {
   std::string path;
   Language language = Language::Basic;
   Source source;
+  bool is_bytes = false; ///< the file holds a macro's bytes, and the source is made from them
 };
+
+/// The macro source of a file that holds bytes, a `.sphero` or a `.bin`; BadInput where they are no
+/// macro.
+tl::expected<std::string, Failure> macro_source(std::string_view name, std::string_view bytes);
+
+/// Whether the ending of `name` says that it holds the bytes of a macro.
+bool holds_macro_bytes(std::string_view name);
+
+/// That a file of bytes is not written as text: code 2, and the command that makes a source of it.
+Failure not_text(std::string_view name);
 
 /// That the form of `name` cannot be told: code 2, and what to add.
 Failure unknown_content(std::string_view name);

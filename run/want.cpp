@@ -70,7 +70,7 @@ std::optional<Want> number(const Program& of, const Options& options) {
       continue;
     const auto line = line_at(program, statement.span.begin);
     const auto lack = fmt::format("{} waits for a number", of.where(line));
-    return Want{line, "a number", lack + "; add `--input 20`", lack, "input 20"};
+    return Want{line, "a number", lack + "; add `--input 20`", lack, true, "input 20"};
   }
   return std::nullopt;
 }
@@ -90,7 +90,7 @@ std::optional<Want> sensor(const Program& of, const Options& options) {
                                   program.text_of(node.span), read->lack);
     constexpr std::string_view time = "at 2s ";
     return Want{line, read->what, fmt::format("{}; add `--stimulus \"{}\"`", lack, read->line),
-                lack, read->line.substr(time.size())};
+                lack, false,      read->line.substr(time.size())};
   }
   return std::nullopt;
 }

@@ -17,6 +17,7 @@ struct Want {
   std::string_view what;  ///< `a shake`
   std::string advice;     ///< a sentence that says so and ends in the option to type
   std::string lack;       ///< the sentence alone
+  bool answers = false;   ///< a number, which a client can give anywhere
   std::string_view event; ///< what is missing as a line of a stimulus script, but its time: `shake`
 };
 

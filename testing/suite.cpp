@@ -229,11 +229,11 @@ std::optional<std::string> program_path(SuiteFile& file, structured::Files& file
     for (const auto& path : {beside(name, ending), beside(name, capitals(ending))})
       if (files.read(path))
         return path;
-  findings.push_back(finding(rules::NoProgram, {0, 0},
-                             fmt::format("there is no program to test: neither {}, {} nor {}",
-                                         beside(name, endings[0]), beside(name, endings[1]),
-                                         beside(name, endings[2])),
-                             "name one: `program corner.bas`, or give programs with `--program`"));
+  findings.push_back(finding(
+      rules::NoProgram, {0, 0},
+      fmt::format("there is no program to test: neither {}, {} nor {}", beside(name, endings[0]),
+                  beside(name, endings[1]), beside(name, endings[2])),
+      "name one: `program corner.bas`, or run it with `orb test --program`"));
   findings.back().severity = Severity::Error; // to run it; check() lowers that
   return std::nullopt;
 }

@@ -128,7 +128,14 @@ void run_asm(Context& context, const std::string& file, const AsmWay& way, const
   auto text = disk::read(file);
   if (!text)
     return fail(context, {ExitCode::File, text.error().message});
-  const Source source(disk::display_name(file), std::move(*text));
+  const auto name = disk::display_name(file);
+  if (run::holds_macro_bytes(file)) {
+    auto made = run::macro_source(name, *text);
+    if (!made)
+      return fail(context, made.error());
+    text = *std::move(made);
+  }
+  const Source source(name, std::move(*text));
   auto assembly = assembler::assemble(source, way.fold_delays ? assembler::Folding::Fold
                                                               : assembler::Folding::Keep);
   if (report(context, source, assembly)) {

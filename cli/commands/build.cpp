@@ -35,8 +35,7 @@ struct BuildOptions {
 bool has_errors(Context& context, const Source& source, const std::vector<Diagnostic>& found) {
   bool errors = false;
   for (const auto& diagnostic : found) {
-    if (diagnostic.severity != Severity::Error ||
-        diagnostic.rule == &compiler::rules::ProgramTooLarge)
+    if (!keeps_from_building(diagnostic) || diagnostic.rule == &compiler::rules::ProgramTooLarge)
       continue;
     errors = true;
     print_finding(context, source, diagnostic);

@@ -76,6 +76,10 @@ bool fix_one(Context& context, const CheckOptions& options, SourceFile& input) {
   });
   if (made == 0)
     return true;
+  if (input.is_bytes) {
+    fail(context, run::not_text(input.source.name()));
+    return false;
+  }
   if (const auto written = disk::write(input.path, as_bytes(input.source.text())); !written) {
     fail(context, {ExitCode::File, written.error().message});
     return false;

@@ -118,6 +118,8 @@ void run_one(Context& context, const FmtOptions& options, const std::string& pat
   if (!formatted)
     return;
   const bool changed = *formatted != source.text();
+  if (options.write && file->is_bytes)
+    return fail(context, run::not_text(source.name()));
   if (options.diff)
     print_out(unified_diff(source.name(), source.text(), *formatted));
   if (options.check && changed) {

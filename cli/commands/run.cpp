@@ -188,6 +188,23 @@ void plan(const std::vector<run::Input>& inputs, const run::Options& given, spec
   static_cast<void>(run::run(inputs, options, nobody, &journey)); // without it there is no plan
 }
 
+/// What the program looks for and will not find, with the option that brings it; empty where
+/// nothing can be done about it, as in the world of a real robot.
+std::string hint_of(const Context& context, const RunOptions& given,
+                    const std::vector<run::Input>& inputs, const run::Options& options) {
+  const auto want = run::want(inputs, options);
+  if (!want)
+    return "";
+  const bool has_world =
+      (given.port.port.empty() && given.replay.empty()) || drives_virtual(context, given);
+  return has_world || want->answers ? "hint: " + want->advice : "";
+}
+
+/// The numbers of `--input`, and another one.
+std::string one_more(const run::Options& options) {
+  return fmt::format("{}{}20", fmt::join(options.numbers, ","), options.numbers.empty() ? "" : ",");
+}
+
 tl::expected<void, Failure> run_files(Context& context, RunOptions given) {
   if (is_room(given))
     return run_together(context, given);
@@ -198,7 +215,7 @@ tl::expected<void, Failure> run_files(Context& context, RunOptions given) {
   if (!profile)
     return tl::unexpected(profile.error());
   if (!given.port.port.empty() || !given.replay.empty())
-    if (auto fits = check_for_robot(given, *options); !fits)
+    if (auto fits = check_for_robot(context, given, *options); !fits)
       return fits;
   const auto inputs = read_inputs(given.files, given.language, options->target, run::Lint::Off);
   if (!inputs)
@@ -213,8 +230,9 @@ tl::expected<void, Failure> run_files(Context& context, RunOptions given) {
   std::optional<report::Course> course;
   if (auto done = take_course(context, given.course, course, *options); !done)
     return done;
-  if (const auto want = run::want(*inputs, *options))
-    print_note(context, "hint: " + want->advice);
+  const auto want = hint_of(context, given, *inputs, *options);
+  if (!want.empty())
+    print_note(context, want);
   Console console(given, *inputs);
   std::optional<report::Journey> journey;
   if (!given.report.empty() || !given.svg.empty())
@@ -250,6 +268,8 @@ tl::expected<void, Failure> run_files(Context& context, RunOptions given) {
   if (!written) // how the run ended is told all the same
     print_error(context, written.error().message);
   tell_end(context, given, *ending, run::why(*inputs, *options, *ending));
+  if (want.empty() && ending->reason == run::Reason::Input && options->asks == run::Asks::No)
+    print_note(context, fmt::format("hint: answer it with `--input {}`", one_more(*options)));
   if (*profile)
     hint_at_guesses(context, given, **profile, console);
   if (ending->robot_stopped)
@@ -322,11 +342,11 @@ void run_with_report(Context& context, RunOptions& options) {
   if (options.open && options.report == "-")
     return fail(context, {ExitCode::Usage, "`--open` needs a report in a file; omit `--report -`"});
   if (!options.record.empty() && options.port.port.empty())
-    return fail(context, {ExitCode::Usage, "`--record` records a run on a robot; add `--port`"});
+    return fail(context, {ExitCode::Usage, "`--record` records a run on a robot; add `--port URL`"});
   if (!options.replay.empty() && !options.port.port.empty())
     return fail(context, {ExitCode::Usage, "`--replay` needs no robot; omit `--port`"});
   if (options.sleeps && options.port.port.empty())
-    return fail(context, {ExitCode::Usage, "`--sleep` puts a robot to sleep; add `--port`"});
+    return fail(context, {ExitCode::Usage, "`--sleep` puts a robot to sleep; add `--port URL`"});
   if (options.watch && !options.port.port.empty())
     return fail(context,
                 {ExitCode::Usage, "`--watch` would drive the robot on every change; do not "

@@ -411,9 +411,9 @@ tl::expected<void, Failure> check_port(const TestOptions& options) {
   };
   if (options.port.port.empty()) {
     if (options.yes)
-      return refuse("`--yes` is for tests on a robot; add `--port`");
+      return refuse("`--yes` is for tests on a robot; add `--port URL`");
     if (!options.robot.empty())
-      return refuse("`--robot` says which robot answers; add `--port`");
+      return refuse("`--robot` says which robot answers; add `--port URL`");
   } else if (!options.ball.empty()) {
     return refuse("`--ball` says how a virtual ball drives; omit it, or omit `--port`");
   } else if (options.jobs > 1) {

@@ -62,10 +62,18 @@ tl::expected<run::SourceFile, Failure> read_source(const std::string& path, std:
   auto text = read_text(path);
   if (!text)
     return tl::unexpected(text.error());
+  const auto name = disk::display_name(path);
+  const bool bytes = run::holds_macro_bytes(path) && (lang.empty() || lang == "macro");
+  if (bytes) {
+    auto made = run::macro_source(name, *text);
+    if (!made)
+      return tl::unexpected(made.error());
+    return run::SourceFile{path, run::Language::Macro, Source(name, *std::move(made)), bytes};
+  }
   const auto language = run::language_of(path, lang);
   if (!language)
-    return tl::unexpected(run::unknown_content(disk::display_name(path)));
-  return run::SourceFile{path, *language, Source(disk::display_name(path), *std::move(text))};
+    return tl::unexpected(run::unknown_content(name));
+  return run::SourceFile{path, *language, Source(name, *std::move(text))};
 }
 
 tl::expected<std::vector<run::Input>, Failure> read_inputs(const std::vector<std::string>& paths,

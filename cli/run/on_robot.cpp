@@ -7,7 +7,9 @@
 #include "compiler/lint/lint.h"
 #include "disk/disk.h"
 
+#include <algorithm>
 #include <fmt/format.h>
+#include <iterator>
 #include <optional>
 #include <set>
 
@@ -25,31 +27,52 @@ void hint_at_lacks(const Context& context, const std::vector<run::Input>& inputs
           print_note(context, "hint: " + found.message);
 }
 
+bool is_number(const vm::TimedStimulus& event) {
+  return std::holds_alternative<vm::stimulus::Number>(event.stimulus);
+}
+
+/// What the world does to a virtual robot; numbers are for the program, which runs here.
+std::vector<vm::TimedStimulus> world_of(const run::Options& options) {
+  auto events =
+      options.course != nullptr ? options.course->stimuli() : std::vector<vm::TimedStimulus>();
+  std::copy_if(options.stimuli.begin(), options.stimuli.end(), std::back_inserter(events),
+               [](const vm::TimedStimulus& event) { return !is_number(event); });
+  return events;
+}
+
 } // namespace
 
-tl::expected<void, Failure> check_for_robot(const RunOptions& given, const run::Options& options) {
+bool drives_virtual(const Context& context, const RunOptions& given) {
+  if (given.port.port.empty() || !given.replay.empty())
+    return false;
+  const auto endpoint = find_endpoint(context.config, given.port.port);
+  return endpoint && endpoint->scheme == uploader::Scheme::Sim;
+}
+
+tl::expected<void, Failure> check_for_robot(const Context& context, const RunOptions& given,
+                                            const run::Options& options) {
   const auto of_simulation = [&](std::string_view option) {
     return refuse(ExitCode::Usage,
                   fmt::format("`{}` is for the virtual ball; omit it, or omit `{}`", option,
                               given.replay.empty() ? "--port" : "--replay"));
   };
-  if (!given.course.empty())
+  const bool has_world = drives_virtual(context, given);
+  if (!given.course.empty() && !has_world)
     return of_simulation("--course");
   if (given.firmware_given)
     return of_simulation("--firmware");
   if (given.disconnected)
     return of_simulation("--disconnected");
-  for (const auto& event : options.stimuli)
-    if (!std::holds_alternative<vm::stimulus::Number>(event.stimulus))
-      return refuse(
-          ExitCode::Usage,
-          "with a robot, a stimulus can only be an `input`: shake and push the robot by hand, or "
-          "omit `--port`");
+  if (!has_world && !std::all_of(options.stimuli.begin(), options.stimuli.end(), is_number))
+    return refuse(ExitCode::Usage,
+                  fmt::format("with a robot, a stimulus can only be an `input`: shake and push the "
+                              "robot by hand, or omit `{}`",
+                              given.replay.empty() ? "--port" : "--replay"));
   return {};
 }
 
 tl::expected<OnRobot, Failure> run_on_robot(const Context& context, const RunOptions& given,
-                                            const run::Options& options,
+                                            const run::Options& given_options,
                                             const std::vector<run::Input>& inputs, Console& console,
                                             report::Journey* journey) {
   std::optional<disk::Draft> record;
@@ -66,6 +89,14 @@ tl::expected<OnRobot, Failure> run_on_robot(const Context& context, const RunOpt
   auto& robot = **connected;
   hint_at_lacks(context, inputs, robot.tether.robot);
   robot.tether.aim = given.keep_aim ? run::Aim::Keep : run::Aim::Zero;
+  auto options = given_options;
+  if (robot.link.ball != nullptr) {
+    robot.tether.begins = [&ball = *robot.link.ball, world = world_of(options)] {
+      ball.schedule(world);
+    };
+    std::erase_if(options.stimuli,
+                  [](const vm::TimedStimulus& event) { return !is_number(event); });
+  }
   run::DriveRecording recording;
   if (record)
     robot.tether.recording = &recording;

@@ -13,8 +13,12 @@
 
 namespace orb::cli {
 
+/// Whether the robot that the options name is `sim:`, which has a world.
+bool drives_virtual(const Context& context, const RunOptions& given);
+
 /// Why the command line does not go with a robot: what only a simulation can do.
-tl::expected<void, Failure> check_for_robot(const RunOptions& given, const run::Options& options);
+tl::expected<void, Failure> check_for_robot(const Context& context, const RunOptions& given,
+                                            const run::Options& options);
 
 /// A run on a robot, and what became of `--sleep`.
 struct OnRobot {

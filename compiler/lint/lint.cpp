@@ -142,6 +142,7 @@ std::vector<Diagnostic> lint(const Program& program, const Target& target) {
     lint_units(program, flow, findings);
     lint_waits(program, flow, findings);
     lint_sums(program, flow, findings);
+    lint_certain(program, flow, findings);
   }
   if (target.robot)
     lint_robot(program, *target.robot, findings);

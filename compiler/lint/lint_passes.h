@@ -59,6 +59,10 @@ void lint_waits(const Program& program, const Flow& flow, Findings& findings);
 /// What is computed and lost on the way: values exchanged, sums, products, shares.
 void lint_sums(const Program& program, const Flow& flow, Findings& findings);
 
+/// What happens for certain: of the first value that stops the program on its only way, a warning
+/// becomes an error, and what nothing warned of is said.
+void lint_certain(const Program& program, const Flow& flow, Findings& findings);
+
 /// What the robot does not have.
 void lint_robot(const Program& program, spec::Robot robot, Findings& findings);
 

@@ -220,6 +220,11 @@ std::vector<std::int32_t> landmarks_of(std::vector<std::int32_t> named) {
   return landmarks;
 }
 
+std::string shown(Range range) {
+  return range.constant() ? fmt::format("{}", range.lo)
+                          : fmt::format("{} to {}", range.lo, range.hi);
+}
+
 Digits printed(Range range) {
   const auto lo = digits(range.lo);
   const auto hi = digits(range.hi);

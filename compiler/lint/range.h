@@ -70,6 +70,9 @@ Range widen(std::span<const std::int32_t> landmarks, Range before, Range now);
 /// The landmarks of a program that names these numbers: each of them and its neighbours.
 std::vector<std::int32_t> landmarks_of(std::vector<std::int32_t> named);
 
+/// `5` or `1 to 9`.
+std::string shown(Range range);
+
 /// How many characters the numbers of a range take when printed: the least and the most.
 struct Digits {
   std::uint32_t least;

@@ -225,10 +225,11 @@ void ValuesPass::add_missing_go(const StatementNode& statement, const Item& last
   auto& d = findings_.add(rules::MissingGo, statement.span,
                           "since orbBasic 1.2 (August 2012), `goroll` takes 3 values, found 2; the "
                           "third is 1 to drive, 0 to brake");
-  d.fix =
-      single_fix("add the go value", last.span,
-                 fmt::format("{},{}", program_.text_of(last.span), speed == Range::only(0) ? 0 : 1),
-                 Safety::Unsafe);
+  const bool brakes = speed == Range::only(0);
+  const bool known = brakes || speed.lo > 0; // a speed that can be either drives at times
+  d.fix = single_fix("add the go value", last.span,
+                     fmt::format("{},{}", program_.text_of(last.span), brakes ? 0 : 1),
+                     known ? Safety::Safe : Safety::Unsafe);
 }
 
 void ValuesPass::check_flags(const Item& value) {
@@ -253,8 +254,15 @@ void ValuesPass::check_sleep(const Item& value) {
       range.misses(1, spec::value_of(spec::Limit::GreatestLineNumber)))
     return;
   const auto* number = flow_.find(static_cast<std::uint32_t>(range.lo));
-  if (number != nullptr && number->code != none)
+  if (number != nullptr && number->code != none) {
+    if (target_.area == Area::Ram)
+      findings_.add(rules::WakesElsewhere, value.span,
+                    fmt::format("the ball wakes up at line {} of the program in flash; this one "
+                                "goes to RAM, which sleep clears",
+                                range.lo),
+                    "give `--area flash`");
     return;
+  }
   auto& d = findings_.add(number == nullptr ? rules::MissingTarget : rules::EmptyTarget, value.span,
                           fmt::format("no line {} to wake up at", range.lo));
   if (target_.area == Area::Ram) {
@@ -274,13 +282,19 @@ void ValuesPass::check_let(const LetView& let) {
   }
 }
 
+/// `step 0`, with its word.
+Span ValuesPass::step_clause(const ForView& loop) const {
+  const auto begin = program_.text.find_first_not_of(" \t", loop.end.span.end);
+  return {static_cast<std::uint32_t>(begin), loop.step->span.end};
+}
+
 void ValuesPass::check_for(const ForView& loop) {
   const auto& variable = loop.variable;
   const auto start = range_of(loop.start);
   const auto end = range_of(loop.end);
   const auto step = loop.step != nullptr ? range_of(*loop.step) : Range::only(1);
   if (step == Range::only(0))
-    findings_.add(rules::ZeroStep, loop.step->span, step_of_zero().message, step_of_zero().help);
+    findings_.add(rules::ZeroStep, step_clause(loop), step_of_zero().message, step_of_zero().help);
   const bool away = (step.lo > 0 && start.lo > end.hi) || (step.hi < 0 && start.hi < end.lo);
   if (away) {
     auto& d =

@@ -17,11 +17,6 @@ namespace orb::compiler {
 inline constexpr auto letters = spec::letter_count;
 inline constexpr std::uint32_t index_letter = letters - 1; // Y
 
-inline std::string shown(Range range) {
-  return range.constant() ? fmt::format("{}", range.lo)
-                          : fmt::format("{} to {}", range.lo, range.hi);
-}
-
 /// By variable, whether it takes all its values: directions, switches and what clients send; a ball
 /// is never as fast as its sensors could tell.
 inline constexpr auto reaches_ends = [] {
@@ -219,6 +214,8 @@ private:
   void check_sleep(const Item& value);
 
   void check_let(const LetView& let);
+
+  Span step_clause(const ForView& loop) const;
 
   void check_for(const ForView& loop);
 

@@ -18,15 +18,59 @@ namespace {
 constexpr std::int64_t frames_of_a_thread = 1000;
 enum Reference : std::int64_t { Variables = 1, Arrays, Sensors, Ball, Limits, FirstArray = 100 };
 
+/// A number that the client sent, as it wrote it.
+std::string shown(const Json& number) {
+  return to_valid_utf8(number.dump(-1, ' ', false, Json::error_handler_t::replace));
+}
+
 } // namespace
+
+bool Session::has(Thread thread) const {
+  const bool macro = !over && debugger->runs(Thread::Macro);
+  if (thread == Thread::Macro)
+    return macro;
+  return !macro || debugger->runs(Thread::Program);
+}
+
+tl::expected<Thread, std::string> Session::thread_of(const Json& arguments) const {
+  const auto& id = member(arguments, "threadId");
+  if (id.is_null())
+    return Thread::Program;
+  const auto number = number_of(id);
+  for (const auto thread : {Thread::Program, Thread::Macro})
+    if (number == thread_number(thread) && (has(thread) || thread == debugger->thread()))
+      return thread;
+  return refuse(fmt::format("there is no thread {} now; `threads` lists them", shown(id)));
+}
+
+bool Session::has_frame(std::int64_t frame) const {
+  const auto is_of = [&](Thread thread) {
+    const auto first = thread_number(thread) * frames_of_a_thread;
+    const auto count = static_cast<std::int64_t>(debugger->frames(thread).size());
+    return frame >= first && frame < first + count;
+  };
+  return is_of(Thread::Program) || is_of(Thread::Macro);
+}
+
+tl::expected<void, std::string> Session::check_frame(const Json& arguments) const {
+  const auto& id = member(arguments, "frameId");
+  const auto frame = number_of(id);
+  if (id.is_null() || (frame && has_frame(*frame)))
+    return {};
+  return refuse(fmt::format("there is no frame {} now; `stackTrace` lists them", shown(id)));
+}
+
+bool Session::has_variables(std::int64_t reference) const {
+  const auto arrays = static_cast<std::int64_t>(debugger->arrays().size());
+  return (reference >= Variables && reference <= Limits) ||
+         (reference >= FirstArray && reference - FirstArray < arrays);
+}
 
 Answer Session::threads(const Json&) {
   auto list = Json::array();
-  const bool program = !over && debugger->runs(Thread::Program);
-  const bool macro = !over && debugger->runs(Thread::Macro);
-  if (program || !macro)
+  if (has(Thread::Program))
     list.push_back({{"id", program_thread}, {"name", "program"}});
-  if (macro)
+  if (has(Thread::Macro))
     list.push_back({{"id", macro_thread}, {"name", "macro"}});
   return Json{{"threads", std::move(list)}};
 }
@@ -40,7 +84,9 @@ Answer Session::loaded_sources(const Json&) {
 
 Answer Session::stack_trace(const Json& arguments) {
   const auto thread = thread_of(arguments);
-  const auto frames = debugger->frames(thread);
+  if (!thread)
+    return refuse(thread.error());
+  const auto frames = debugger->frames(*thread);
   const auto skipped = static_cast<std::size_t>(
       std::max<std::int64_t>(0, number_of(member(arguments, "startFrame")).value_or(0)));
   const auto wanted = std::max<std::int64_t>(0, number_of(member(arguments, "levels")).value_or(0));
@@ -48,7 +94,7 @@ Answer Session::stack_trace(const Json& arguments) {
   for (std::size_t i = skipped; i < frames.size(); ++i) {
     if (wanted > 0 && list.size() == static_cast<std::size_t>(wanted))
       break;
-    Json frame{{"id", thread_number(thread) * frames_of_a_thread + static_cast<std::int64_t>(i)},
+    Json frame{{"id", thread_number(*thread) * frames_of_a_thread + static_cast<std::int64_t>(i)},
                {"name", to_valid_utf8(frames[i].name)},
                {"line", 0},
                {"column", 0}};
@@ -63,16 +109,10 @@ Answer Session::stack_trace(const Json& arguments) {
 }
 
 Answer Session::scopes(const Json& arguments) {
-  const auto frame = number_of(member(arguments, "frameId"));
-  if (!frame)
+  if (member(arguments, "frameId").is_null())
     return refuse("`frameId` is missing; `stackTrace` lists the frames");
-  const auto is_of = [&](Thread thread) {
-    const auto first = thread_number(thread) * frames_of_a_thread;
-    const auto count = static_cast<std::int64_t>(debugger->frames(thread).size());
-    return *frame >= first && *frame < first + count;
-  };
-  if (!is_of(Thread::Program) && !is_of(Thread::Macro))
-    return refuse(fmt::format("there is no frame {} now; `stackTrace` lists them", *frame));
+  if (auto there = check_frame(arguments); !there)
+    return refuse(there.error());
   auto list = Json::array();
   const auto add = [&](const char* name, std::int64_t reference, bool expensive) {
     list.push_back({{"name", name}, {"variablesReference", reference}, {"expensive", expensive}});
@@ -89,7 +129,12 @@ Answer Session::scopes(const Json& arguments) {
 }
 
 Answer Session::variables(const Json& arguments) {
-  const auto reference = number_of(member(arguments, "variablesReference")).value_or(0);
+  const auto& id = member(arguments, "variablesReference");
+  if (id.is_null())
+    return refuse("`variablesReference` is missing; `scopes` lists them");
+  const auto reference = number_of(id).value_or(0);
+  if (!has_variables(reference))
+    return refuse(fmt::format("there are no variables {}; `scopes` lists them", shown(id)));
   const auto arrays = debugger->arrays();
   auto list = Json::array();
   if (reference == Arrays)
@@ -141,6 +186,8 @@ std::size_t byte_at(std::string_view text, std::int64_t column) {
 } // namespace
 
 Answer Session::completions(const Json& arguments) {
+  if (auto there = check_frame(arguments); !there)
+    return refuse(there.error());
   const auto text = text_of(member(arguments, "text"));
   const auto column = std::max<std::int64_t>(
       0, number_of(member(arguments, "column")).value_or(first_column) - first_column);
@@ -178,6 +225,9 @@ Answer Session::completions(const Json& arguments) {
 }
 
 Answer Session::set_variable(const Json& arguments) {
+  const auto& id = member(arguments, "variablesReference");
+  if (!id.is_null() && !has_variables(number_of(id).value_or(0)))
+    return refuse(fmt::format("there are no variables {}; `scopes` lists them", shown(id)));
   const auto done =
       debugger->set(text_of(member(arguments, "name")), text_of(member(arguments, "value")));
   if (!done)
@@ -186,6 +236,8 @@ Answer Session::set_variable(const Json& arguments) {
 }
 
 Answer Session::evaluate(const Json& arguments) {
+  if (auto there = check_frame(arguments); !there)
+    return refuse(there.error());
   const auto text = text_of(member(arguments, "expression"));
   if (text_of(member(arguments, "context")) == "repl")
     if (auto done = console(trim(text)); done || !done.error().empty())
@@ -215,7 +267,9 @@ Answer Session::console(std::string_view line) {
   return refuse("");
 }
 
-Answer Session::exception_info(const Json&) {
+Answer Session::exception_info(const Json& arguments) {
+  if (const auto thread = thread_of(arguments); !thread)
+    return refuse(thread.error());
   const auto& fault = debugger->fault();
   if (!fault)
     return refuse("no error has stopped the program");

@@ -43,7 +43,10 @@ Answer Session::move(debug::Move move, debug::Direction direction, const Json& a
     return refuse("the run is over; `restart` starts it again");
   if (robot != nullptr && direction == debug::Direction::Back)
     return refuse(std::string(debug::no_way_back));
-  go(move, direction, thread_of(arguments));
+  const auto thread = thread_of(arguments);
+  if (!thread)
+    return refuse(thread.error());
+  go(move, direction, *thread);
   return Json();
 }
 
@@ -73,6 +76,8 @@ Answer Session::goto_targets(const Json& arguments) {
 }
 
 Answer Session::go_to(const Json& arguments) {
+  if (const auto thread = thread_of(arguments); !thread)
+    return refuse(thread.error());
   const auto id = number_of(member(arguments, "targetId")).value_or(-1);
   const auto file = static_cast<std::uint32_t>((id >> 24) & 0xFF);
   const auto line = static_cast<std::uint32_t>(id & 0xFFFFFF);

@@ -40,10 +40,6 @@ int thread_number(Thread thread) {
   return thread == Thread::Program ? program_thread : macro_thread;
 }
 
-Thread thread_of(const Json& arguments) {
-  return number_of(member(arguments, "threadId")) == macro_thread ? Thread::Macro : Thread::Program;
-}
-
 void Session::send(Json message) {
   message["seq"] = ++seq;
   out.push_back(message.dump(-1, ' ', false, Json::error_handler_t::replace));

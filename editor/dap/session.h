@@ -32,7 +32,6 @@ tl::unexpected<std::string> refuse(std::string message);
 inline constexpr int program_thread = 1;
 inline constexpr int macro_thread = 2;
 int thread_number(Thread thread);
-Thread thread_of(const Json& arguments);
 
 inline constexpr std::string_view fault_filter = "faults";
 
@@ -135,6 +134,17 @@ struct Session final : debug::Console {
   std::optional<std::uint32_t> file_of(const Json& source) const;
   std::optional<std::uint32_t> line_of(const Json& json) const;
   std::int64_t told_line(std::uint32_t line) const { return line - 1 + first_line; }
+
+  // What the client names by numbers: inspection.cpp.
+  bool has(Thread thread) const;
+  bool has_frame(std::int64_t frame) const;
+  /// The thread that the client names, the program where it names none; an error where there is no
+  /// such thread.
+  tl::expected<Thread, std::string> thread_of(const Json& arguments) const;
+  /// An error where the client names a frame that there is not.
+  tl::expected<void, std::string> check_frame(const Json& arguments) const;
+  /// Whether `variables` lists something for this number.
+  bool has_variables(std::int64_t reference) const;
 };
 
 } // namespace orb::editor::dap

@@ -95,6 +95,8 @@ tl::expected<TetheredEnding, Failure> run_tethered(std::span<const Input> inputs
     return tl::unexpected(live.error());
   }
   running = live->get();
+  if (tether.begins)
+    tether.begins();
   if (robot.battery()) {
     note(*robot.battery());
     (*live)->apply(*robot.battery());

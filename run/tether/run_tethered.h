@@ -23,6 +23,8 @@ struct TetherOptions {
   std::function<std::unique_ptr<protocol::Transport>()> reopen;
   /// What happens is noted here; null for nobody.
   DriveRecording* recording = nullptr;
+  /// The program starts now: what is to happen to a virtual robot counts from here. May be null.
+  std::function<void()> begins;
   /// Hears sentences for people while it goes on.
   std::function<void(const std::string&)> note;
 };

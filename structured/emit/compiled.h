@@ -6,6 +6,7 @@
 #include "structured/meaning/symbols.h"
 #include "structured/text/program.h"
 
+#include <algorithm>
 #include <cstddef>
 
 namespace orb::structured {
@@ -21,7 +22,10 @@ struct Compiled {
   std::size_t image_bytes = 0; ///< of the packed image
   bool runs = false;           ///< whether there is a program to run
 
-  bool has_errors() const { return any_error(program.diagnostics); }
+  /// Whether something keeps it from becoming lines.
+  bool has_errors() const {
+    return std::any_of(program.diagnostics.begin(), program.diagnostics.end(), keeps_from_building);
+  }
 };
 
 } // namespace orb::structured

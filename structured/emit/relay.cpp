@@ -27,7 +27,8 @@ bool is_told(const Rule* rule) {
                            &robot::MayLeaveRange,    &robot::WrongUnit,       &robot::TinyValue,
                            &robot::GoZero,           &robot::WeakBrake,       &robot::StaleSensor,
                            &robot::InvertedWait,     &robot::LoopVariableSet, &robot::EmptyLoop,
-                           &robot::AlwaysOne,        &robot::RobotLacks,      &robot::NeverRolls})
+                           &robot::AlwaysOne,        &robot::RobotLacks,      &robot::NeverRolls,
+                           &robot::WakesElsewhere})
     if (rule == told)
       return true;
   return false;
@@ -42,15 +43,43 @@ public:
     const auto image = compiler::build_image(plain_, compiler::Packing::Packed);
     compiled_.image_bytes = image.bytes.size();
     for (const auto& found : compiler::lint(plain_, target_))
-      if (is_told(found.rule) && !is_of_array(found))
+      if (is_told(found.rule))
         tell(found);
     check_size(image);
   }
 
 private:
-  /// Where an index may lead is said of the source's own array.
+  /// Whether it is about an index of the robot's only list.
   bool is_of_array(const Diagnostic& found) const {
     return found.rule == &robot::MayLeaveRange && plain_.text_of(found.span) == "Z";
+  }
+
+  /// The arrays that a statement uses, each once.
+  std::vector<const Symbol*> arrays_of(const Statement& statement) const {
+    std::vector<const Symbol*> arrays;
+    for (const auto& item : compiled_.program.items_of(statement)) {
+      if (!item.has_nodes())
+        continue;
+      for (auto n = compiled_.program.nodes[item.value].first; n <= item.value; ++n) {
+        const auto symbol = compiled_.names.of_node[n];
+        if (compiled_.program.nodes[n].kind != NodeKind::Element || symbol == none)
+          continue;
+        const auto* array = &compiled_.names.symbols[symbol];
+        if (std::find(arrays.begin(), arrays.end(), array) == arrays.end())
+          arrays.push_back(array);
+      }
+    }
+    return arrays;
+  }
+
+  /// An index, in words of the array that the source has.
+  void tell_of_index(const Statement& statement, Diagnostic& told) const {
+    const auto arrays = arrays_of(statement);
+    told.help.clear();
+    told.message = "an index can be out of bounds";
+    if (arrays.size() == 1)
+      told.message += fmt::format(": `{}` has elements 1 to {}",
+                                  compiled_.program.name(arrays[0]->name), arrays[0]->value);
   }
 
   /// Whether a statement was written to several places that use an element: an index that is wrong
@@ -96,6 +125,21 @@ private:
     return nullptr;
   }
 
+  /// What happens for certain there was already said to be possible, in words of the source:
+  /// whether that became an error.
+  bool raise_what_was_feared(const Diagnostic& found, const Statement& statement) {
+    if (found.rule == &robot::IndexRange &&
+        has_copies(compiled_.robot.lines[line_at(found.span.begin)].statement))
+      return false;
+    for (auto& other : compiled_.program.diagnostics)
+      if (other.span.begin >= statement.span.begin && other.span.end <= statement.span.end &&
+          (other.rule == &robot::LoopLeavesRange || other.rule == &robot::MayLeaveRange)) {
+        other.severity = Severity::Error;
+        return true;
+      }
+    return false;
+  }
+
   void tell(const Diagnostic& found) {
     auto& program = compiled_.program;
     const auto& statement = statement_at(found.span.begin);
@@ -105,10 +149,13 @@ private:
       if (is_digit(text.front()) && is_letter(text.back()))
         return; // it has its unit
     }
+    if (is_error(found) && raise_what_was_feared(found, statement))
+      return;
     const bool said = std::any_of(
         program.diagnostics.begin(), program.diagnostics.end(), [&](const Diagnostic& other) {
           return other.span.begin >= statement.span.begin && other.span.end <= statement.span.end &&
                  (other.rule == found.rule || other.severity == Severity::Error ||
+                  (is_of_array(found) && other.rule == &robot::LoopLeavesRange) ||
                   found.rule == &robot::WrongUnit);
         });
     if (said)
@@ -134,6 +181,13 @@ private:
       told.message = "the loop runs forever without waiting";
     if (found.rule == &robot::IndexRange)
       told.message = "index out of bounds";
+    if (found.message.starts_with("division by zero"))
+      told.message = "division by zero";
+    if (is_of_array(found))
+      return tell_of_index(statement, told);
+    if (found.rule == &robot::WakesElsewhere)
+      told.message =
+          "`restart` starts the program in flash; this one goes to RAM, which sleep clears";
     if (found.rule == &robot::HeadingGrows && statement.kind == Kind::Assign)
       tell_of_heading(found, statement, told);
     if (found.rule == &robot::StaleSensor)
@@ -151,6 +205,8 @@ private:
     if (found.fix && found.fix->edits.size() == 1 && found.rule != &robot::ValueOutOfRange)
       put_fix_into_source(*found.fix, statement, told);
     if (found.rule == &robot::LoopLeavesRange || found.rule == &robot::MayLeaveRange) {
+      if (told.span == statement.span)
+        drop_expression(told);
       const auto letters = plain_.text_of(found.span);
       const auto names = std::string(program.text_of(told.span));
       const bool single = letters.size() == 1 && names.find_first_of(" +-*/%&|{}") != names.npos;
@@ -160,6 +216,18 @@ private:
       replace(told.help, fmt::format("`{} ", letters),
               single ? fmt::format("`({}) ", names) : fmt::format("`{} ", names));
     }
+  }
+
+  /// Of a value that is no argument of the source only the number is told.
+  static void drop_expression(Diagnostic& told) {
+    constexpr std::string_view becomes = "` becomes ";
+    constexpr std::string_view here = " here";
+    const auto but = told.message.find(", but `");
+    const auto value = told.message.find(becomes);
+    if (but != std::string::npos && value != std::string::npos && told.message.ends_with(here))
+      told.message = told.message.substr(0, but) + ", found " +
+                     told.message.substr(value + becomes.size(), told.message.size() - value -
+                                                                     becomes.size() - here.size());
   }
 
   /// A copy of a sensor: the loop is to read the sensor itself.
@@ -243,7 +311,9 @@ private:
       text.insert(comma + 1, text.compare(comma + 1, 1, " ") == 0 ? "" : " ");
     told.help = fmt::format("write `{}{}{}`", program.text_of({statement.span.begin, there->begin}),
                             text, program.text_of({there->end, statement.span.end}));
-    told.fix = Fix{told.help, {{*there, std::move(text)}}, Safety::Unsafe};
+    told.fix = Fix{told.help,
+                   {{*there, std::move(text)}},
+                   told.rule == &robot::MissingGo ? fix.safety : Safety::Unsafe};
   }
 
   /// The only number of a statement that is written like one of its line.

@@ -133,7 +133,7 @@ void report_refused(const compiler::Program& program, const LiftedText& lifted,
   NoFiles files;
   const auto compiled = compile("", "", lifted.text, {}, files);
   for (const auto& found : compiled.program.diagnostics)
-    if (found.severity == Severity::Error) {
+    if (keeps_from_building(found)) {
       const auto nth = lifting::not_blank(lifted.text, found.span.begin);
       const auto line = nth < lifted.lines.size() ? lifted.lines[nth] : 0;
       findings.push_back(lifting::obstacle(

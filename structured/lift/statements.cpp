@@ -1,5 +1,6 @@
 #include "structured/lift/statements.h"
 
+#include "compiler/lint/reading.h"
 #include "spec/limits.h"
 
 #include <algorithm>
@@ -49,6 +50,8 @@ public:
         return sleep(statement);
       if (statement.kind == Statement::Delay)
         return fmt::format("{} {}", word, time(items[0]));
+      if (statement.kind == Statement::Goroll)
+        return words(word, items, value) + go_value(items);
       return words(word, items, value);
     case spec::Form::Branch:
     case spec::Form::Conditional:
@@ -94,6 +97,14 @@ private:
       }
     }
     return fmt::format("{} = {}", values_.place(variable), values_.text(expression));
+  }
+
+  /// What `goroll` of old programs does without its third value, where the speed tells.
+  std::string go_value(std::span<const compiler::Item> items) const {
+    const auto speed = compiler::number_in(program_, items[1]);
+    if (items.size() != 2 || !speed)
+      return "";
+    return *speed > 0 ? ", 1" : ", 0";
   }
 
   /// The first line of the program is `restart`; no line is nothing.

@@ -1,4 +1,5 @@
 #include "base/text/suggest.h"
+#include "base/text/text.h"
 #include "structured/meaning/checker.h"
 
 namespace orb::structured {
@@ -104,6 +105,17 @@ void Checker::check_statement(const Statement& statement) {
     cases_.clear();
 }
 
+namespace {
+
+/// `onCollision`, `on_shake`: what other languages call by themselves.
+bool is_called_by_events(std::string_view name) {
+  constexpr std::string_view on = "on";
+  return name.size() > on.size() && equal_words(name.substr(0, on.size()), on) &&
+         (name[on.size()] == '_' || name[on.size()] != to_lower(name[on.size()]));
+}
+
+} // namespace
+
 void Checker::check_unused() {
   if (any_error(program_.diagnostics))
     return; // what reads it may be what is wrong
@@ -111,7 +123,9 @@ void Checker::check_unused() {
   for (const auto& symbol : names_.symbols) {
     if (symbol.read)
       continue;
-    if (symbol.kind == SymbolKind::Variable)
+    if (symbol.kind == SymbolKind::Sub || symbol.kind == SymbolKind::Function)
+      check_uncalled(symbol);
+    else if (symbol.kind == SymbolKind::Variable)
       report_unused(symbol, "is set but never read");
     else if (symbol.kind == SymbolKind::Local)
       report_unused(symbol, "is never read");
@@ -119,6 +133,19 @@ void Checker::check_unused() {
       report_unused(symbol,
                     "is never used"); // those of an included file are for all that include it
   }
+}
+
+/// Subs that nobody calls may be for later, but not those that are to be called by themselves.
+void Checker::check_uncalled(const Symbol& symbol) {
+  const auto name = program_.text_of(symbol.span);
+  if (symbol.used || !main_file_runs() || !in_main_file(symbol.span) || !is_called_by_events(name))
+    return;
+  constexpr std::string_view shake = "shake";
+  const bool shakes =
+      name.size() > shake.size() && equal_words(name.substr(name.size() - shake.size()), shake);
+  report(rules::UnusedName, symbol.span, fmt::format("`{}` is never called", name),
+         fmt::format("there are no events; ask {} in the loop",
+                     shakes ? "`dshake`" : "`speed` or `accelone`"));
 }
 
 void Checker::report_unused(const Symbol& symbol, std::string_view how) {

@@ -410,11 +410,19 @@ void Checker::check_counter(std::uint32_t i) {
         report(compiler::rules::LoopLeavesRange, program_.nodes[node - 1].span,
                fmt::format("`{}` counts from {} to {}, but `{}` has elements 1 to {}", name,
                            first->value, last->value, program_.name(array.name), array.value),
-               fmt::format("write `for {} = 1 to {}`", name, array.value));
+               fmt::format("write `for {} = 1 to {}` on line {}", name, array.value,
+                           line_of(loop.span)));
         return;
       }
     }
   }
+}
+
+/// The number of its line in its file.
+std::ptrdiff_t Checker::line_of(Span span) const {
+  const auto begin = program_.file_at(span.begin).begin;
+  const auto above = std::string_view(program_.text).substr(begin, span.begin - begin);
+  return 1 + std::count(above.begin(), above.end(), line_end_of(program_.text).back());
 }
 
 } // namespace orb::structured

@@ -138,6 +138,8 @@ private:
 
   std::uint32_t variable_of(const Statement& loop) const;
 
+  Span step_clause(const Statement& loop) const;
+
   void check_for(const Statement& statement);
 
   /// A loop of which nothing is ever done: its numbers lie the other way round.
@@ -243,7 +245,11 @@ private:
 
   // ---- unused names
 
+  std::ptrdiff_t line_of(Span span) const;
+
   void check_unused();
+
+  void check_uncalled(const Symbol& symbol);
 
   void report_unused(const Symbol& symbol, std::string_view how);
 

@@ -90,7 +90,8 @@ Diagnostic trailing(const Program& program, Span found) {
   if (is_digit(before) &&
       (equal_words(text, "ms") || equal_words(text, "s") || equal_words(text, "min")))
     return malformed(
-        program, found, "a unit directly follows its number",
+        program, {word_before(program.text, found.begin).begin, found.end},
+        "a unit directly follows its number",
         fmt::format("write `{}{}`", program.text_of(word_before(program.text, found.begin)), text));
   if (equal_words(statement, "loop"))
     return malformed(program, found, "`loop` takes no count: it repeats forever",
@@ -207,15 +208,10 @@ Diagnostic reserved(const Program& program, Span word) {
                  fmt::format("write `my_{}` on all these lines", program.text_of(word)));
 }
 
-/// How the functions are written.
-std::string functions() {
-  std::string all = "write ";
-  for (const auto& row : spec::functions)
-    all += fmt::format("`{}(e)`, ", row.word);
-  for (const auto word : {Keyword::Min, Keyword::Max})
-    all += fmt::format("{}`{}(a, b)`", word == Keyword::Max ? ", " : "",
-                       keywords[static_cast<std::size_t>(word)].word);
-  return all;
+/// How a call of a function is written whose argument lacks its parentheses.
+std::string call_of(std::string_view function, std::string_view argument) {
+  const bool known = !argument.empty() && is_name_char(argument.front());
+  return fmt::format("write it like `{}({})`", function, known ? argument : "e");
 }
 
 /// The robot's variables that a program can set.
@@ -412,13 +408,14 @@ Diagnostic explain(const Program& program, Reason reason, Span found) {
                          : "");
   case Reason::ExpectedParenthesis: return malformed(program, found, "missing parenthesis");
   case Reason::ExpectedOperand:
-    return malformed(program, found, "a function needs its argument in parentheses", functions());
+    return malformed(program, found, "a function needs its argument in parentheses",
+                     call_of(program.text_of(word_before(program.text, found.begin)), text));
   case Reason::ExpectedOne:
     return finding(rules::ArgumentCount, found, fmt::format("`{}` takes one value", text),
-                   fmt::format("write `{}(e)`", text));
+                   fmt::format("write it like `{}(e)`", text));
   case Reason::ExpectedTwo:
     return finding(rules::ArgumentCount, found, fmt::format("`{}` takes two values", text),
-                   fmt::format("write `{}(a, b)`", text));
+                   fmt::format("write it like `{}(a, b)`", text));
   case Reason::ExpectedQuote: return finding(rules::MalformedLine, found, "unterminated string");
   case Reason::ExpectedFile: return malformed(program, found, "expected a file name in quotes");
   case Reason::NotAStatement:

@@ -161,7 +161,7 @@ private:
     }
     if (!any)
       report(rules::BadMacroFile, i, fmt::format("`{}` has no macro with a name and an id", path),
-             "write `.macro name id=40`");
+             "write it like `.macro name id=40`");
     program_.macro_files.push_back({path, *std::move(text)});
     taken_macros_.push_back(std::move(identity));
   }

@@ -16,12 +16,14 @@
 // NAME hex` for bytes, or `=== NAME bare` for a text without its last line end. `--update` rewrites
 // the expectations: read the diff. `--pseudo` has findings said in the pseudo-locale, whose marks
 // are taken off again: each transcript must come back as it is, so that nothing that is translated
-// was cut, and the last line tells how many texts were.
+// was cut, and the last line tells how many texts were. `--advice` compares nothing, but follows
+// what each command suggests, where it was suggested: tests/golden/advice.h.
 //
 // A file that ends in `.md` is a page of the documentation: tests/docs/page.h.
 
 #include "base/bytes.h"
 #include "tests/docs/page.h"
+#include "tests/golden/advice.h"
 #include "tests/golden/files.h"
 #include "tests/golden/shell.h"
 
@@ -174,6 +176,7 @@ std::size_t marks_seen = 0; ///< in all transcripts
 struct Options {
   bool update = false;
   bool pseudo = false;
+  bool advice = false;
   fs::path orb;
   fs::path root;
   std::vector<fs::path> paths;
@@ -199,6 +202,45 @@ bool compare(const fs::path& path, const std::string& before, const std::string&
   const auto diff = fmt::format("cd '{}' && diff -u expected actual", folder.path().string());
   shell::run(diff);
   return false;
+}
+
+/// Tries what the help of all commands suggests.
+bool follow_help() {
+  const files::Scratch logs;
+  const auto problems =
+      advice::problems_of_help([&](const std::string& command, const fs::path& folder) {
+        const auto ran = run(command, folder, logs.path());
+        return advice::Ran{ran.out, ran.err, ran.exit};
+      });
+  for (const auto& problem : problems)
+    fmt::print("--help: {}\n", problem);
+  return problems.empty();
+}
+
+/// Follows what the commands of a transcript suggest, each where it has just run.
+bool follow_advice(const fs::path& path) {
+  const auto transcript = parse(files::read(path));
+  const files::Scratch scratch;
+  const files::Scratch logs;
+  const auto work = settle(scratch.path());
+  for (const auto& input : transcript.inputs)
+    files::write(work / input.name, content_of(input));
+  const advice::Run run_in = [&](const std::string& command, const fs::path& folder) {
+    const auto ran = run(command, folder, logs.path());
+    return advice::Ran{ran.out, ran.err, ran.exit};
+  };
+  bool good = true;
+  const auto tell = [&](const std::string& command, const std::vector<std::string>& problems) {
+    for (const auto& problem : problems)
+      fmt::print("{}\n  $ {}\n    {}\n", path.string(), command, problem);
+    good = good && problems.empty();
+  };
+  if (path.extension() == ".md")
+    tell("", advice::problems_of_page(files::read(path), run_in));
+  for (const auto& step : transcript.steps)
+    if (path.extension() != ".md")
+      tell(step.command, advice::problems(step.command, run_in(step.command, work), work, run_in));
+  return good;
 }
 
 bool check_transcript(const fs::path& path, const Options& options) {
@@ -246,8 +288,9 @@ bool check_page(const fs::path& path, const Options& options) {
 }
 
 bool check(const fs::path& path, const Options& options) {
-  const bool good =
-      path.extension() == ".md" ? check_page(path, options) : check_transcript(path, options);
+  const bool good = options.advice              ? follow_advice(path)
+                    : path.extension() == ".md" ? check_page(path, options)
+                                                : check_transcript(path, options);
   shell::end_all();
   return good;
 }
@@ -294,6 +337,8 @@ int main(int argc, char** argv) {
       options.update = true;
     else if (words[i] == "--pseudo")
       options.pseudo = true;
+    else if (words[i] == "--advice")
+      options.advice = true;
     else if (words[i] == "--orb" && i + 1 < words.size())
       options.orb = words[++i];
     else if (words[i] == "--root" && i + 1 < words.size())
@@ -302,14 +347,14 @@ int main(int argc, char** argv) {
       options.paths.emplace_back(words[i]);
   }
   if (options.orb.empty() || options.root.empty() || options.paths.empty()) {
-    fmt::print(stderr,
-               "usage: golden [--update|--pseudo] --orb PROGRAM --root CHECKOUT FILE|FOLDER...\n");
+    fmt::print(stderr, "usage: golden [--update|--pseudo|--advice] --orb PROGRAM --root CHECKOUT "
+                       "FILE|FOLDER...\n");
     return 2;
   }
   set_environment(options);
   shell::watch_signals();
   const auto files = transcripts(options.paths);
-  std::size_t failed = 0;
+  std::size_t failed = options.advice && !follow_help() ? 1 : 0;
   for (const auto& file : files)
     if (!shell::was_interrupted() && !check(file, options))
       ++failed;
@@ -318,6 +363,9 @@ int main(int argc, char** argv) {
   fmt::print("{} transcripts, {} failed\n", files.size(), failed);
   if (options.pseudo)
     fmt::print("{} texts were said in the pseudo-locale\n", marks_seen);
-  const bool is_said = !options.pseudo || marks_seen > 0;
+  if (options.advice)
+    fmt::print("{} suggestions were followed\n", advice::tried());
+  const bool is_said =
+      (!options.pseudo || marks_seen > 0) && (!options.advice || advice::tried() > 0);
   return failed == 0 && !files.empty() && is_said ? 0 : 1;
 }

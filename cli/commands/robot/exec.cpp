@@ -68,7 +68,7 @@ Failure unknown_command(const std::string& name) {
     names.push_back(row.name);
   return {ExitCode::Usage,
           fmt::format("`{}` is not an API command; {}", name,
-                      did_you_mean(name, names, "`orb spec commands` lists them"))};
+                      did_you_mean(name, names, "`orb spec api-commands` lists them"))};
 }
 
 /// The same where packets v1 are spoken.
@@ -76,7 +76,7 @@ Failure unknown_to_classic(const std::string& name) {
   if (spec::find_v2_command(name) == nullptr)
     return unknown_command(name);
   return {ExitCode::Usage, fmt::format("`{}` is a command of the newer robots, and this is a "
-                                       "classic ball; `orb spec commands` lists what it takes",
+                                       "classic ball; `orb spec api-commands` lists what it takes",
                                        name)};
 }
 
@@ -262,7 +262,7 @@ void add_exec(const Command& orb, Context& context) {
                                        "orb exec --port ble://SB-1A2B get-battery-voltage\n"
                                        "orb exec --ports class.toml set-rgb-led 0 0 255");
   auto options = std::make_shared<ExecOptions>();
-  command.add_option("NAME", options->name, "the command, as `orb spec commands` lists it")
+  command.add_option("NAME", options->name, "the command, as `orb spec api-commands` lists it")
       .required();
   command.add_option("ARGS", options->arguments, "its operands");
   add_roster_options(command, options->roster, links_at_once);

@@ -241,7 +241,7 @@ void dry_run(Context& context, UploadOptions& options, const uploader::Delivery&
 
 void upload(Context& context, UploadOptions& options) {
   if (options.sleeps && options.roster.ports.empty() && options.roster.file.empty())
-    return cli::fail(context, {ExitCode::Usage, "`--sleep` puts a robot to sleep; add `--port`"});
+    return cli::fail(context, {ExitCode::Usage, "`--sleep` puts a robot to sleep; add `--port URL`"});
   if (options.sleeps && options.run && !options.monitor)
     return cli::fail(context,
                      {ExitCode::Usage, "`--sleep` would end what `--run` starts; omit one "
