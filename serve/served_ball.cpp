@@ -25,9 +25,14 @@ constexpr std::size_t read_size = 64 * 1024; // bytes at once
 /// How much a client that has left is still heard when the next one knocks.
 constexpr int farewell_reads = 64;
 
+/// A seed of its own for the ball of that index: what happens to one ball does not happen to all.
+std::uint64_t seed_of(std::uint64_t seed, int index) {
+  return seed + static_cast<std::uint64_t>(index);
+}
+
 vm::BallOptions ball_options(const ServeOptions& options, int index) {
   auto ball = options.ball;
-  ball.seed += static_cast<std::uint64_t>(index);
+  ball.seed = seed_of(ball.seed, index);
   ball.wire = vm::Wire::Unpaced;
   return ball;
 }
@@ -42,8 +47,11 @@ ServedBall::ServedBall(asio::io_context& io, const ServeOptions& options, int in
                        FakeBluez* bluez)
     : io_(io), options_(options), index_(index), bluez_(bluez), ball_(ball_options(options, index)),
       timer_(io) {
-  if (options.fault)
-    pipe_.emplace(*options.fault, spec::info(options.robot).packets);
+  if (options.fault) {
+    auto plan = *options.fault;
+    plan.seed = seed_of(plan.seed, index);
+    pipe_.emplace(plan, spec::info(options.robot).packets);
+  }
   if (spec::info(options.robot).packets == spec::Packets::V2)
     robot_.emplace(ball_, options.robot, vm::bluetooth_address(ball_options(options, index).seed));
   ball_.schedule(options.stimulus);
