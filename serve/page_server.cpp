@@ -81,6 +81,7 @@ struct PageServer::State {
   tl::expected<void, IoError> open();
   void poll();
   void accept();
+  bool make_room();
   void read(Guest& guest);
   void write(Guest& guest);
   void say(Guest& guest, std::string text);
@@ -117,10 +118,22 @@ void PageServer::State::accept() {
   acceptor.async_accept([this](asio::error_code error, tcp::socket socket) {
     if (error == asio::error::operation_aborted)
       return;
-    if (!error && guests.size() < most_guests)
+    if (!error && make_room())
       read(guests.emplace_back(std::move(socket)));
     accept();
   });
+}
+
+/// Whoever has said too little for too long makes way: the page must get through.
+bool PageServer::State::make_room() {
+  if (guests.size() < most_guests)
+    return true;
+  const auto idle = std::find_if(guests.begin(), guests.end(),
+                                 [](const Guest& guest) { return !guest.listens && !guest.gone; });
+  if (idle == guests.end())
+    return false;
+  idle->gone = true;
+  return true;
 }
 
 void PageServer::State::read(Guest& guest) {

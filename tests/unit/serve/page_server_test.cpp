@@ -87,6 +87,17 @@ TEST_F(PageServerTest, WhoDoesNotKnowTheSecretIsNotReadFrom) {
   EXPECT_TRUE(polled);
 }
 
+TEST_F(PageServerTest, WhoSaysNothingMakesWay) {
+  asio::io_context context;
+  std::vector<asio::ip::tcp::socket> silent;
+  for (int i = 0; i < 40; ++i) {
+    silent.emplace_back(context).connect({asio::ip::address_v4::loopback(), port});
+    ASSERT_TRUE(server->poll());
+  }
+  EXPECT_EQ(ask("POST " + secret + "stop HTTP/1.1\r\n\r\n"), "HTTP/1.1 204 No Content");
+  EXPECT_EQ(posts, std::vector<std::string>{"stop:"});
+}
+
 TEST_F(PageServerTest, AnErrorOfWhoeverHearsThePostsIsNoException) {
   ask("POST " + secret + "bug HTTP/1.1\r\n\r\n");
   ASSERT_FALSE(polled);
