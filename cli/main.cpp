@@ -1,3 +1,4 @@
+#include "base/contain.h"
 #include "cli/commands/commands.h"
 #include "cli/commands/robot/ports.h"
 #include "cli/context/console.h"
@@ -8,12 +9,10 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
-#include <exception>
 #include <fmt/format.h>
 #include <optional>
 #include <sstream>
 #include <string>
-#include <system_error>
 #include <vector>
 
 namespace {
@@ -110,16 +109,14 @@ int end_without_output(int error) {
 
 int main(int argc, char** argv) {
   try {
-    return run(orb::cli::begin_process(argc, argv));
+    const auto exit = orb::contain([&]() -> tl::expected<int, orb::Failure> {
+      return run(orb::cli::begin_process(argc, argv));
+    });
+    if (exit)
+      return *exit;
+    orb::cli::print_err(fmt::format("orb: error: {}\n", exit.error().message));
+    return static_cast<int>(exit.error().code);
   } catch (const orb::cli::OutputError& failure) {
     return end_without_output(failure.error);
-  } catch (const std::system_error& error) { // no descriptor left, say
-    orb::cli::print_err(fmt::format("orb: error: {}\n", error.what()));
-    return static_cast<int>(ExitCode::File);
-  } catch (const std::exception& error) {
-    orb::cli::print_err(fmt::format(
-        "orb: internal error: {}\nthis is a bug in orb; please report it with the command line\n",
-        error.what()));
-    return static_cast<int>(ExitCode::Bug);
   }
 }

@@ -1,5 +1,6 @@
 #include "editor/wire.h"
 
+#include "base/text/header_fields.h"
 #include "base/text/text.h"
 
 #include <algorithm>
@@ -7,21 +8,6 @@
 
 namespace orb::editor {
 namespace {
-
-/// The number after `Content-Length:` in a header block; nothing without one.
-std::optional<std::size_t> content_length(std::string_view header) {
-  while (!header.empty()) {
-    const auto end = std::min(header.find_first_of("\r\n"), header.size());
-    const auto line = header.substr(0, end);
-    header.remove_prefix(std::min(end + 1, header.size()));
-    const auto colon = line.find(':');
-    if (colon == std::string_view::npos ||
-        !equal_words(trim(line.substr(0, colon)), "Content-Length"))
-      continue;
-    return parse_number<std::size_t>(trim(line.substr(colon + 1)));
-  }
-  return std::nullopt;
-}
 
 /// Where the header of the next message begins, if it does within `bytes`; behind what must be
 /// skipped when a body of unknown length comes first.
@@ -90,8 +76,8 @@ std::optional<MessageReader::Event> MessageReader::read_header() {
     return Event{true, "a header without an end"};
   }
   const auto header = std::string_view(buffer_).substr(0, end);
-  const auto length = content_length(header);
-  if (!length) {
+  const auto length = body_length(header);
+  if (length.said != BodyLength::Said::Length) {
     // A body that was longer than said may stand before the next header.
     const auto other = next_header(header.substr(std::min<std::size_t>(1, header.size())));
     buffer_.erase(0, other == std::string_view::npos ? end + size : other + 1);
@@ -99,12 +85,12 @@ std::optional<MessageReader::Event> MessageReader::read_header() {
     return Event{true, "a header without a usable Content-Length"};
   }
   buffer_.erase(0, end + size);
-  if (*length > max_message) {
-    to_skip_ = *length;
-    return Event{true,
-                 fmt::format("a message of {} bytes; at most {} are read", *length, max_message)};
+  if (length.bytes > max_message) {
+    to_skip_ = length.bytes;
+    return Event{
+        true, fmt::format("a message of {} bytes; at most {} are read", length.bytes, max_message)};
   }
-  length_ = length;
+  length_ = length.bytes;
   return std::nullopt;
 }
 

@@ -1,5 +1,7 @@
 #include "protocol/recording.h"
 
+#include "base/text/text.h"
+
 #include <algorithm>
 #include <fmt/format.h>
 #include <utility>
@@ -9,6 +11,10 @@ namespace {
 
 /// A client that has written nothing for so long only listens: no wait of a client is as long.
 constexpr Duration only_listens = 1h;
+
+std::string wrong_line(std::size_t line) {
+  return fmt::format("line {} is not `> FF FF …` (sent) or `< FF FF …` (received)", line);
+}
 
 } // namespace
 
@@ -21,10 +27,13 @@ tl::expected<std::vector<RecordedPiece>, std::string> parse_recording(std::strin
     content.remove_prefix(std::min(content.find_first_not_of(" \t\r"), content.size()));
     if (content.empty() || content.front() == '#')
       continue;
+    if (is_digit(content.front())) // when it was
+      content = trim(content.substr(std::min(content.find_first_of(" \t"), content.size())));
+    if (content.empty())
+      return tl::unexpected(wrong_line(line));
     const auto bytes = from_hex(content.substr(1));
     if ((content.front() != '>' && content.front() != '<') || !bytes)
-      return tl::unexpected(
-          fmt::format("line {} is not `> FF FF …` (sent) or `< FF FF …` (received)", line));
+      return tl::unexpected(wrong_line(line));
     if (!bytes->empty())
       pieces.push_back({content.front() == '>' ? Direction::ToBall : Direction::FromBall, *bytes});
   }

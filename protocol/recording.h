@@ -17,8 +17,9 @@ struct RecordedPiece {
   Bytes bytes;
 };
 
-/// Reads a recording: `> FF FF …` was sent, `< FF FF …` was received, `#` begins a comment. Blanks
-/// in front and at the end do not count. The error is a sentence that names the line.
+/// Reads a recording: `> FF FF …` was sent, `< FF FF …` was received, `#` begins a comment. A
+/// time may stand in front, as in `1.234 > FF FF …`. Blanks in front and at the end do not count.
+/// The error is a sentence that names the line.
 tl::expected<std::vector<RecordedPiece>, std::string> parse_recording(std::string_view text);
 
 /// A line of a recording, with its line end.

@@ -73,7 +73,7 @@ class Robot;
 class Computer final : public FakeBluez {
 public:
   Computer(asio::io_context& io, const protocol::BleFaultPlan& plan)
-      : io_(io), plan_(plan), random_{plan.seed}, socket_(io) {}
+      : io_(io), plan_(plan), socket_(io) {}
   Computer(const Computer&) = delete;
   Computer& operator=(const Computer&) = delete;
   ~Computer() override { socket_.release(); }
@@ -91,7 +91,8 @@ public:
 
   asio::io_context& io() { return io_; }
   const protocol::BleFaultPlan& plan() const { return plan_; }
-  Random& random() { return random_; }
+  /// What happens to one robot does not happen to all.
+  Random make_random() { return {plan_.seed + made_++}; }
   sdbus::IConnection& connection() { return *connection_; }
 
   /// Does something later.
@@ -108,7 +109,7 @@ private:
 
   asio::io_context& io_;
   const protocol::BleFaultPlan& plan_;
-  Random random_;
+  std::uint64_t made_ = 0; ///< robots
   PrivateBus bus_;
   std::unique_ptr<sdbus::IConnection> connection_;
   asio::posix::stream_descriptor socket_;  ///< the connection's own
@@ -124,8 +125,8 @@ public:
   Robot(Computer& computer, std::string name, const std::string& address, spec::BleModel model)
       : DescriptorLink(computer.io()), computer_(computer), name_(std::move(name)), model_(model),
         protocol_(computer.plan().newer ? spec::BleProtocol::V2 : spec::info(model).protocol),
-        peer_(computer.io()), drop_once_(computer.plan().drop_once),
-        balk_once_(computer.plan().balk_once) {
+        random_(computer.make_random()), peer_(computer.io()),
+        drop_once_(computer.plan().drop_once), balk_once_(computer.plan().balk_once) {
     for (std::size_t i = 0; i + 1 < address.size(); i += 2)
       address_ += (i > 0 ? ":" : "") + address.substr(i, 2);
     if (computer_.plan().undriven)
@@ -193,6 +194,7 @@ private:
   std::string address_;
   std::string path_;
   Door* door_ = nullptr;
+  Random random_;
   asio::posix::stream_descriptor peer_;
   std::unique_ptr<sdbus::IObject> device_;
   std::vector<std::unique_ptr<sdbus::IObject>> services_;
@@ -589,9 +591,8 @@ void Robot::on_write(BleCharacteristic characteristic, const Bytes& value, Resul
     return result.returnError(bluez_error("NotPermitted", "Write not permitted"));
   if (value.size() > spec::ble_piece_bytes) // a robot does not know long writes
     return result.returnError(bluez_error("Failed", "Operation failed with ATT error: 0x06"));
-  if (characteristic == spec::takes_packets(protocol_) &&
-      computer_.random().chance(computer_.plan().refuse)) {
-    if (computer_.random().chance(half))
+  if (characteristic == spec::takes_packets(protocol_) && random_.chance(computer_.plan().refuse)) {
+    if (random_.chance(half))
       take(characteristic, value);
     return result.returnError(bluez_error("Failed", "Operation failed with ATT error: 0x0e"));
   }
@@ -657,10 +658,9 @@ void Robot::notify(ByteView bytes) {
   auto& answers = characteristics_[spec::sends_packets(protocol_)];
   const auto& plan = computer_.plan();
   while (!bytes.empty()) {
-    const auto most =
-        plan.pieces_least + computer_.random().below(plan.pieces_most - plan.pieces_least + 1);
+    const auto most = plan.pieces_least + random_.below(plan.pieces_most - plan.pieces_least + 1);
     const auto piece = bytes.first(std::min(bytes.size(), most));
-    if (!answers.notified.empty() && !computer_.random().chance(plan.lose))
+    if (!answers.notified.empty() && !random_.chance(plan.lose))
       tell(*answers.object, characteristic_interface,
            {{"Value", Bytes(piece.begin(), piece.end())}});
     bytes = bytes.subspan(piece.size());

@@ -1,8 +1,10 @@
 #include "serve/page_server.h"
 
+#include "base/contain.h"
+#include "base/text/header_fields.h"
+
 #include <algorithm>
 #include <asio.hpp>
-#include <charconv>
 #include <deque>
 #include <fmt/format.h>
 #include <list>
@@ -41,45 +43,23 @@ std::string answer(std::string_view status, std::string_view type, std::string_v
                      status, type, body.size(), body);
 }
 
+constexpr std::string_view nothing_here = "there is nothing here\n";
 constexpr std::string_view event_head = "HTTP/1.1 200 OK\r\nContent-Type: text/event-stream\r\n"
                                         "Cache-Control: no-store\r\nConnection: close\r\n\r\n";
 
-/// The first line of a request, and the length that its head announces.
-struct Head {
+/// The first line of a request.
+struct Request {
   std::string_view method;
   std::string_view path;
-  std::size_t length = 0;
 };
 
-bool is_header(std::string_view line, std::string_view name) {
-  return line.size() > name.size() && line[name.size()] == ':' &&
-         std::equal(name.begin(), name.end(), line.begin(), [](char a, char b) {
-           return a == (b >= 'A' && b <= 'Z' ? static_cast<char>(b - 'A' + 'a') : b);
-         });
-}
-
 /// Nothing where it is no request that could be answered.
-std::optional<Head> read_head(std::string_view text) {
-  Head head;
-  const auto first = text.substr(0, text.find("\r\n"));
-  const auto blank = first.find(' ');
-  const auto end = first.rfind(' ');
+std::optional<Request> read_request(std::string_view line) {
+  const auto blank = line.find(' ');
+  const auto end = line.rfind(' ');
   if (blank == std::string_view::npos || end <= blank)
     return std::nullopt;
-  head.method = first.substr(0, blank);
-  head.path = first.substr(blank + 1, end - blank - 1);
-  for (auto rest = text.substr(first.size()); rest.starts_with("\r\n");) {
-    rest.remove_prefix(2);
-    const auto line = rest.substr(0, rest.find("\r\n"));
-    rest.remove_prefix(line.size());
-    constexpr std::string_view name = "content-length";
-    if (!is_header(line, name))
-      continue;
-    const auto value = line.substr(line.find_first_not_of(" \t", name.size() + 1));
-    if (std::from_chars(value.data(), value.data() + value.size(), head.length).ec != std::errc{})
-      return std::nullopt;
-  }
-  return head;
+  return Request{line.substr(0, blank), line.substr(blank + 1, end - blank - 1)};
 }
 
 /// A connection: a request that arrives, or a page that listens.
@@ -99,12 +79,15 @@ struct PageServer::State {
   State(std::string text, OnPost hears) : page(std::move(text)), on_post(std::move(hears)) {}
 
   tl::expected<void, IoError> open();
+  void poll();
   void accept();
+  bool make_room();
   void read(Guest& guest);
   void write(Guest& guest);
   void say(Guest& guest, std::string text);
   void serve(Guest& guest);
-  void answer_to(Guest& guest, const Head& head, std::string_view body);
+  void answer_to(Guest& guest, const Request& request, std::string_view body);
+  void refuse(Guest& guest, std::string_view status, std::string_view why);
 
   std::string page;
   OnPost on_post;
@@ -135,10 +118,22 @@ void PageServer::State::accept() {
   acceptor.async_accept([this](asio::error_code error, tcp::socket socket) {
     if (error == asio::error::operation_aborted)
       return;
-    if (!error && guests.size() < most_guests)
+    if (!error && make_room())
       read(guests.emplace_back(std::move(socket)));
     accept();
   });
+}
+
+/// Whoever has said too little for too long makes way: the page must get through.
+bool PageServer::State::make_room() {
+  if (guests.size() < most_guests)
+    return true;
+  const auto idle = std::find_if(guests.begin(), guests.end(),
+                                 [](const Guest& guest) { return !guest.listens && !guest.gone; });
+  if (idle == guests.end())
+    return false;
+  idle->gone = true;
+  return true;
 }
 
 void PageServer::State::read(Guest& guest) {
@@ -158,44 +153,56 @@ void PageServer::State::read(Guest& guest) {
                                });
 }
 
-/// Answers once the whole request is there.
+/// Answers once the whole request is there; whoever does not know the secret path, before that.
 void PageServer::State::serve(Guest& guest) {
   if (guest.listens) {
     guest.in.clear(); // who listens says no more
     return;
   }
-  const auto end = guest.in.find("\r\n\r\n");
-  if (end == std::string::npos) {
-    if (guest.in.size() > most_head)
+  constexpr std::string_view blank_line = "\r\n\r\n";
+  const auto text = std::string_view(guest.in);
+  const auto end = text.find(blank_line);
+  if (end == std::string_view::npos) {
+    if (text.size() > most_head)
       guest.gone = true;
     return;
   }
-  const auto text = std::string_view(guest.in);
-  const auto head = read_head(text.substr(0, end));
-  constexpr std::size_t blank_line = 4;
-  if (!head || head->length > most_body) {
-    guest.leaves = true;
-    return say(guest, answer("400 Bad Request", "text/plain", "this request is not supported\n"));
-  }
-  if (text.size() - end - blank_line >= head->length)
-    answer_to(guest, *head, text.substr(end + blank_line, head->length));
+  const auto head = text.substr(0, end);
+  const auto line = head.substr(0, head.find("\r\n"));
+  auto request = read_request(line);
+  if (!request)
+    return refuse(guest, "400 Bad Request", "this request is not supported\n");
+  if (!request->path.starts_with(base))
+    return refuse(guest, "404 Not Found", nothing_here);
+  const auto length = body_length(head.substr(line.size()));
+  if (length.said == BodyLength::Said::Nonsense || length.bytes > most_body)
+    return refuse(guest, "400 Bad Request", "this request is not supported\n");
+  const auto body = text.substr(end + blank_line.size());
+  request->path.remove_prefix(base.size());
+  if (body.size() >= length.bytes)
+    answer_to(guest, *request, body.substr(0, length.bytes));
 }
 
-void PageServer::State::answer_to(Guest& guest, const Head& head, std::string_view body) {
-  const bool known = head.path.starts_with(base);
-  const auto path = known ? head.path.substr(base.size()) : std::string_view();
-  if (known && head.method == "GET" && path == "events") {
+/// `request` has the part of its path after the secret one.
+void PageServer::State::answer_to(Guest& guest, const Request& request, std::string_view body) {
+  if (request.method == "GET" && request.path == "events") {
     guest.listens = true;
     return say(guest, std::string(event_head));
   }
-  guest.leaves = true;
-  if (known && head.method == "GET" && path.empty())
-    return say(guest, answer("200 OK", "text/html; charset=utf-8", page));
-  if (known && head.method == "POST") {
-    on_post(path, body);
+  if (request.method == "POST") {
+    on_post(request.path, body);
+    guest.leaves = true;
     return say(guest, answer("204 No Content", "text/plain", ""));
   }
-  say(guest, answer("404 Not Found", "text/plain", "there is nothing here\n"));
+  if (request.method != "GET" || !request.path.empty())
+    return refuse(guest, "404 Not Found", nothing_here);
+  guest.leaves = true;
+  say(guest, answer("200 OK", "text/html; charset=utf-8", page));
+}
+
+void PageServer::State::refuse(Guest& guest, std::string_view status, std::string_view why) {
+  guest.leaves = true;
+  say(guest, answer(status, "text/plain", why));
 }
 
 void PageServer::State::say(Guest& guest, std::string text) {
@@ -239,17 +246,24 @@ const std::string& PageServer::url() const {
   return state_->url;
 }
 
-void PageServer::poll() {
-  state_->context.restart();
-  state_->context.poll();
+tl::expected<void, Failure> PageServer::poll() {
+  return contain([this]() -> tl::expected<void, Failure> {
+    state_->poll();
+    return {};
+  });
+}
+
+void PageServer::State::poll() {
+  context.restart();
+  context.poll();
   // Who is gone is forgotten once nothing of his is under way.
-  for (auto& guest : state_->guests)
+  for (auto& guest : guests)
     if (guest.gone && guest.socket.is_open()) {
       asio::error_code ignored;
       guest.socket.close(ignored);
     }
-  state_->context.poll();
-  state_->guests.remove_if([](const Guest& guest) { return !guest.socket.is_open(); });
+  context.poll();
+  guests.remove_if([](const Guest& guest) { return !guest.socket.is_open(); });
 }
 
 void PageServer::send(std::string_view event) {

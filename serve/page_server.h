@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/exit_code.h"
 #include "base/io_error.h"
 
 #include <cstddef>
@@ -24,8 +25,8 @@ public:
 
   /// `http://127.0.0.1:PORT/SECRET/`.
   const std::string& url() const;
-  /// Serves what has come, and does not wait.
-  void poll();
+  /// Serves what has come, and does not wait. Fails where whoever hears the posts throws.
+  tl::expected<void, Failure> poll();
   /// Tells every open page; a page that does not keep up is closed.
   void send(std::string_view event);
   std::size_t listeners() const;

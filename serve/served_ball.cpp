@@ -25,11 +25,13 @@ constexpr std::size_t read_size = 64 * 1024; // bytes at once
 /// How much a client that has left is still heard when the next one knocks.
 constexpr int farewell_reads = 64;
 
-vm::BallOptions ball_options(const ServeOptions& options, int index) {
-  auto ball = options.ball;
-  ball.seed += static_cast<std::uint64_t>(index);
-  ball.wire = vm::Wire::Unpaced;
-  return ball;
+/// A seed of its own for the ball of that index: what happens to one ball does not happen to all.
+std::uint64_t seed_of(std::uint64_t seed, int index) {
+  return seed + static_cast<std::uint64_t>(index);
+}
+
+double seconds(Instant since_start) {
+  return std::chrono::duration<double>(since_start.time_since_epoch()).count();
 }
 
 bool only_later(ssize_t result) {
@@ -40,13 +42,33 @@ bool only_later(ssize_t result) {
 
 ServedBall::ServedBall(asio::io_context& io, const ServeOptions& options, int index,
                        FakeBluez* bluez)
-    : io_(io), options_(options), index_(index), bluez_(bluez), ball_(ball_options(options, index)),
-      timer_(io) {
-  if (options.fault)
-    pipe_.emplace(*options.fault, spec::info(options.robot).packets);
-  if (spec::info(options.robot).packets == spec::Packets::V2)
-    robot_.emplace(ball_, options.robot, vm::bluetooth_address(ball_options(options, index).seed));
-  ball_.schedule(options.stimulus);
+    : io_(io), options_(options), index_(index), bluez_(bluez),
+      spectator_(options.watch ? options.watch(index) : nullptr), timer_(io) {
+  if (options.fault) {
+    auto plan = *options.fault;
+    plan.seed = seed_of(plan.seed, index);
+    pipe_.emplace(plan, spec::info(options.robot).packets);
+  }
+  make_ball();
+}
+
+vm::BallOptions ServedBall::ball_options() {
+  auto ball = options_.ball;
+  ball.seed = seed_of(ball.seed, index_);
+  ball.wire = vm::Wire::Unpaced;
+  if (spectator_ != nullptr)
+    ball.observer = this;
+  return ball;
+}
+
+/// Begins a life at `born_`.
+void ServedBall::make_ball() {
+  const auto options = ball_options();
+  robot_.reset();
+  ball_.emplace(options);
+  if (spec::info(options_.robot).packets == spec::Packets::V2)
+    robot_.emplace(*ball_, options_.robot, vm::bluetooth_address(options.seed));
+  ball_->schedule(options_.stimulus);
 }
 
 // Opening.
@@ -70,12 +92,12 @@ tl::expected<void, IoError> ServedBall::load() {
   const auto text = disk::read(path);
   if (!text)
     return tl::unexpected(text.error());
-  if (const auto loaded = vm::load_state(*text, ball_); !loaded)
+  if (const auto loaded = vm::load_state(*text, *ball_); !loaded)
     return tl::unexpected(
         IoError{fmt::format("{} cannot be used as a ball's state: {}; remove it to start with "
                             "a new ball, or give another file",
                             path, loaded.error())});
-  saved_revision_ = ball_.dispatcher().revision();
+  saved_revision_ = ball_->dispatcher().revision();
   return {};
 }
 
@@ -106,7 +128,7 @@ tl::expected<void, IoError> ServedBall::open_tcp(const ServeOptions::Tcp& place)
 
 /// Under the name that such a robot has: its kind, and the end of its address.
 void ServedBall::open_ble(FakeBluez& bluez) {
-  const auto options = ball_options(options_, index_);
+  const auto options = ball_options();
   const auto model = options.firmware == spec::Firmware::Bb8 ? spec::BleModel::Bb8
                                                              : spec::info(options_.robot).ble;
   const auto address = vm::bluetooth_address(options.seed);
@@ -137,8 +159,8 @@ tl::expected<void, IoError> ServedBall::open() {
 tl::expected<void, IoError> ServedBall::save() {
   if (options_.state_file.empty())
     return {};
-  saved_revision_ = ball_.dispatcher().revision();
-  return disk::write(numbered(options_.state_file), as_bytes(vm::save_state(ball_)));
+  saved_revision_ = ball_->dispatcher().revision();
+  return disk::write(numbered(options_.state_file), as_bytes(vm::save_state(*ball_)));
 }
 
 std::string ServedBall::addresses() const {
@@ -150,6 +172,8 @@ std::string ServedBall::addresses() const {
 
 void ServedBall::start(Clock::time_point start) {
   start_ = start;
+  if (spectator_ != nullptr)
+    spectator_->on_begin(born_, *ball_);
   for (const auto& link : links_)
     link->start(*this);
   step();
@@ -164,6 +188,75 @@ Instant ServedBall::real_time() const {
 Instant ServedBall::now() const {
   const auto real = static_cast<double>(real_time().time_since_epoch().count());
   return Instant{} + Duration{static_cast<Duration::rep>(real * options_.speed)};
+}
+
+// What is asked of it besides its client.
+
+std::string ServedBall::obey(const Control& control) {
+  const auto time = now();
+  live_until(time);
+  std::string answer = "ok";
+  if (const auto* happens = std::get_if<Control::Now>(&control.what))
+    ball_->apply(happens->stimulus);
+  else if (const auto* later = std::get_if<vm::TimedStimulus>(&control.what)) {
+    const auto wait = later->at - time.time_since_epoch();
+    if (wait < Duration{})
+      return fmt::format("error: it is {:.3f} s now; write a later time, or `at now`",
+                         seconds(time));
+    const vm::TimedStimulus event{wait, later->stimulus};
+    ball_->schedule({&event, 1});
+  } else if (std::holds_alternative<Control::Reset>(control.what))
+    reset();
+  else
+    answer = state();
+  step();
+  return answer;
+}
+
+/// Switches it off and on, and puts it where it stood at first. Its client stays.
+void ServedBall::reset() {
+  const auto kept = vm::save_state(*ball_);
+  born_ = now();
+  make_ball();
+  static_cast<void>(vm::load_state(kept, *ball_)); // what it has written itself
+  saved_revision_ = ball_->dispatcher().revision();
+  if (spectator_ != nullptr)
+    spectator_->on_begin(born_, *ball_);
+  spacer_.clear();
+  if (client_ == nullptr)
+    return;
+  ball_->connect();
+  if (robot_)
+    robot_->connect();
+}
+
+std::string ServedBall::state() const {
+  const auto& body = ball_->body();
+  const auto pose = body.pose();
+  const auto color = ball_->led();
+  const auto is = [](bool so) { return so ? "yes" : "no"; };
+  return fmt::format("t={:.3f} x={:.2f} y={:.2f} heading={:.2f} speed={:.2f} rgb={},{},{} "
+                     "client={} program={} macro={} asleep={} volts={:.2f}",
+                     seconds(now()), pose.x_cm, pose.y_cm, pose.heading_deg, pose.speed_cm_s,
+                     color.red, color.green, color.blue, is(ball_->connected()),
+                     is(ball_->basic_running()), is(ball_->macros().running()), is(ball_->asleep()),
+                     body.battery_v());
+}
+
+/// Why its client is dropped.
+std::string ServedBall::asleep() const {
+  const auto own = seconds(now()) - seconds(born_);
+  const auto name = options_.count == 1 ? "the ball" : fmt::format("ball {}", index_ + 1);
+  return fmt::format("{} fell asleep at {:.0f} s of its time{}, which ends its connection; "
+                     "connecting wakes it",
+                     name, own,
+                     options_.speed == 1 ? "" : fmt::format(" (`--speed {:g}`)", options_.speed));
+}
+
+void ServedBall::end() {
+  live_until(now());
+  if (spectator_ != nullptr)
+    spectator_->on_end(now());
 }
 
 // Clients come and go.
@@ -183,8 +276,8 @@ bool ServedBall::admits() {
 void ServedBall::enter(Link& link) {
   client_ = &link;
   ++session_;
-  ball_.advance_to(now());
-  ball_.connect();
+  live_until(now());
+  ball_->connect();
   if (robot_)
     robot_->connect();
   if (pipe_)
@@ -201,10 +294,10 @@ void ServedBall::leave() {
   spacer_.clear();
   backlog_.clear();
   writing_ = reading_ = false;
-  ball_.advance_to(now());
+  live_until(now());
   if (robot_)
     robot_->disconnect();
-  ball_.disconnect();
+  ball_->disconnect();
   link.hang_up();
   step();
 }
@@ -235,7 +328,7 @@ void ServedBall::on_input() {
     return leave();
   const auto bytes = ByteView(buffer).first(static_cast<std::size_t>(size));
   log(protocol::Direction::ToBall, bytes);
-  ball_.advance_to(now());
+  live_until(now());
   if (pipe_)
     pipe_->push(protocol::Direction::ToBall, bytes, now());
   else
@@ -250,16 +343,16 @@ void ServedBall::on_input() {
 
 void ServedBall::step() {
   const auto time = now();
-  ball_.advance_to(time);
+  live_until(time);
   if (pipe_) {
     for (auto bytes = pipe_->take(protocol::Direction::ToBall, time); !bytes.empty();
          bytes = pipe_->take(protocol::Direction::ToBall, time))
       hear(bytes);
-    ball_.advance_to(time);
+    live_until(time);
   }
-  while (robot_ && robot_->next_event() <= time)
+  while (robot_ && since_start(robot_->next_event()) <= time)
     robot_->run();
-  if (!options_.state_file.empty() && ball_.dispatcher().revision() != saved_revision_)
+  if (!options_.state_file.empty() && ball_->dispatcher().revision() != saved_revision_)
     if (auto saved = save(); !saved)
       fail(saved.error()); // answers still go out: the ball itself has changed
   take_packets();
@@ -269,15 +362,20 @@ void ServedBall::step() {
   for (const auto& bytes : spacer_.take(real_time()))
     write(bytes);
   // Sleep ends the connection; who cannot be hung up on is just not heard any more.
-  if (session == session_ && client_ != nullptr && client_->can_hang_up() && !ball_.connected() &&
-      backlog_.empty() && !spacer_.has_messages())
+  if (session == session_ && client_ != nullptr && client_->can_hang_up() && !ball_->connected() &&
+      backlog_.empty() && !spacer_.has_messages()) {
+    if (ball_->asleep())
+      options_.note(asleep());
     leave();
+  }
   arm();
+  if (spectator_ != nullptr && spectator_->has_enough())
+    io_.stop();
 }
 
 void ServedBall::hear(ByteView bytes) {
   if (!robot_)
-    return ball_.receive(bytes);
+    return ball_->receive(bytes);
   robot_->receive(bytes);
 }
 
@@ -297,7 +395,7 @@ void ServedBall::take_v2_packets() {
 void ServedBall::take_packets() {
   if (robot_)
     return take_v2_packets();
-  while (auto packet = ball_.take_packet()) {
+  while (auto packet = ball_->take_packet()) {
     if (client_ == nullptr)
       continue;
     if (pipe_) {
@@ -310,7 +408,7 @@ void ServedBall::take_packets() {
       continue;
     }
     // Once streaming has stopped, no sensor data may follow the answer that says so.
-    if (spacer_.has_messages() && ball_.streamer().next_event() == never)
+    if (spacer_.has_messages() && ball_->streamer().next_event() == never)
       spacer_.hurry();
     spacer_.add_answer(std::move(*packet));
   }
@@ -371,8 +469,8 @@ void ServedBall::on_writable() {
 /// Sleeps until something happens by itself.
 void ServedBall::arm() {
   auto wake = Clock::time_point::max();
-  const auto next = std::min({ball_.next_event(), pipe_ ? pipe_->next_due() : never,
-                              robot_ ? robot_->next_event() : never});
+  const auto next = std::min({since_start(ball_->next_event()), pipe_ ? pipe_->next_due() : never,
+                              robot_ ? since_start(robot_->next_event()) : never});
   if (next != never) {
     const auto real = static_cast<double>(next.time_since_epoch().count()) / options_.speed;
     constexpr double century = 3e18;
@@ -398,7 +496,11 @@ void ServedBall::arm() {
 }
 
 void ServedBall::log(protocol::Direction direction, ByteView bytes) {
-  if (log_.is_open() && !(log_ << protocol::recording_line(direction, bytes) << std::flush)) {
+  if (!log_.is_open())
+    return;
+  const auto line =
+      fmt::format("{:.3f} {}", seconds(now()), protocol::recording_line(direction, bytes));
+  if (!(log_ << line << std::flush)) {
     fail({fmt::format("cannot write {}: {}", numbered(options_.log_file), std::strerror(errno))});
     log_.close();
   }

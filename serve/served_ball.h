@@ -1,6 +1,7 @@
 #pragma once
 
 #include "disk/lock.h"
+#include "serve/control.h"
 #include "serve/fake_bluez.h"
 #include "serve/link.h"
 #include "serve/packet_spacer.h"
@@ -16,7 +17,7 @@
 namespace orb::serve {
 
 /// One ball in real time, with its links, its client and its files.
-class ServedBall final : private Door {
+class ServedBall final : private Door, private vm::Observer {
 public:
   using Clock = std::chrono::steady_clock;
 
@@ -28,6 +29,10 @@ public:
   tl::expected<void, IoError> open();
   /// Begins to live; `start` is the moment at which balls have time 0.
   void start(Clock::time_point start);
+  /// Does what is asked, and answers in a line without its end.
+  std::string obey(const Control& control);
+  /// It is not served any more.
+  void end();
   /// A line per link.
   std::string addresses() const;
   /// Writes the state file, where there is one.
@@ -40,7 +45,15 @@ private:
   void enter(Link& link) override;
   void moved(const Link& link) override { options_.announce(link.address() + "\n"); }
   void leave();
+  void on_event(Instant at, const vm::Event& event) override {
+    spectator_->on_event(at + born_.time_since_epoch(), event);
+  }
 
+  vm::BallOptions ball_options();
+  void make_ball();
+  void reset();
+  std::string state() const;
+  std::string asleep() const;
   tl::expected<void, IoError> load();
   tl::expected<void, IoError> open_pty();
   tl::expected<void, IoError> open_tcp(const ServeOptions::Tcp& place);
@@ -48,6 +61,11 @@ private:
 
   Instant now() const;
   Instant real_time() const;
+  /// Moments of the ball's own time, which begins anew with each reset, as moments since the start.
+  Instant since_start(Instant own) const {
+    return own == never ? never : own + born_.time_since_epoch();
+  }
+  void live_until(Instant time) { ball_->advance_to(time - born_.time_since_epoch()); }
   std::string numbered(const std::string& name) const;
 
   void wait_client(Link::Ready ready, void (ServedBall::*handler)());
@@ -70,7 +88,9 @@ private:
   const ServeOptions& options_;
   int index_;
   FakeBluez* bluez_;
-  vm::Ball ball_;
+  Spectator* spectator_; ///< null for none
+  Instant born_{};       ///< when the ball began to live: at the start, or at the last reset
+  std::optional<vm::Ball> ball_;
   std::optional<vm::RobotV2> robot_; ///< that the ball is, where it speaks packets v2
   std::optional<protocol::FaultPipe> pipe_;
   Clock::time_point start_;

@@ -1,8 +1,9 @@
 #pragma once
 
-#include "base/io_error.h"
+#include "base/exit_code.h"
 #include "protocol/ble_faults.h"
 #include "protocol/link_faults.h"
+#include "serve/spectator.h"
 #include "spec/robots.h"
 #include "vm/ball.h"
 #include "vm/stimulus.h"
@@ -10,8 +11,10 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
+#include <sys/types.h>
 #include <tl/expected.hpp>
 #include <vector>
 
@@ -34,14 +37,24 @@ struct ServeOptions {
   vm::BallOptions ball;
   std::vector<vm::TimedStimulus> stimulus;
   std::optional<protocol::FaultPlan> fault;
-  std::string state_file;                         ///< empty for none
-  std::string log_file;                           ///< a recording; empty for none
-  std::function<void(std::string_view)> announce; ///< hears a line per link, and where one moves
-  std::function<void(std::string_view)> warn;     ///< hears what is unsafe or has failed
+  std::string state_file; ///< empty for none
+  std::string log_file;   ///< a recording; empty for none
+  /// Where lines of control come from, as from read(2) (serve/control.h); empty for nowhere.
+  std::function<ssize_t(std::span<char>)> control;
+  /// Who watches the ball of that index, and outlives it; empty for nobody.
+  std::function<Spectator*(int)> watch;
+  std::function<void(std::string_view)> announce = [](std::string_view) {
+  }; ///< hears a line per link, and where one moves
+  std::function<void(std::string_view)> answer = [](std::string_view) {
+  }; ///< hears what control lines are answered
+  std::function<void(std::string_view)> note = [](std::string_view) {
+  }; ///< hears what a ball does by itself
+  std::function<void(std::string_view)> warn = [](std::string_view) {
+  }; ///< hears what is unsafe or has failed
 };
 
-/// Serves balls until SIGINT or SIGTERM. Fails when a
-/// link, the state or the log cannot be opened, or the state cannot be kept.
-tl::expected<void, IoError> serve(const ServeOptions& options);
+/// Serves balls until SIGINT or SIGTERM. Fails when a link, the state or the log cannot be opened,
+/// the state cannot be kept, or a handler throws; the state has been kept then, too.
+tl::expected<void, Failure> serve(const ServeOptions& options);
 
 } // namespace orb::serve

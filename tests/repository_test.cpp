@@ -126,8 +126,8 @@ const std::vector<std::pair<std::string, std::vector<std::string>>> shelves = {
     {"compiler", {"text", "messages", "lint", "."}},
     {"testing", {"text", ".", "verdicts"}},
     {"cli",
-     {"model", "bluez", "context", "input", "terminal", "robot", "many", "run", "room", "editors",
-      "commands", "."}},
+     {"model", "bluez", "context", "input", "terminal", "robot", "many", "ball", "run", "room",
+      "editors", "commands", "."}},
     {"editor", {".", "languages", "lsp", "dap", "printed"}},
 };
 

@@ -1,5 +1,7 @@
 #include "base/text/text.h"
+#include "cli/ball/served_record.h"
 #include "cli/commands/commands.h"
+#include "cli/context/console.h"
 #include "cli/input/inputs.h"
 #include "cli/model/checks.h"
 #include "cli/robot/ball_profile.h"
@@ -9,6 +11,7 @@
 #include "spec/firmware.h"
 #include "spec/robots.h"
 
+#include <cmath>
 #include <fmt/format.h>
 #include <limits>
 #include <memory>
@@ -31,7 +34,40 @@ struct BallArguments {
   std::string course;
   std::string state;
   std::string log;
+  bool control = false;
+  std::string trace;
+  std::string trace_out;
+  std::string report;
 };
+
+/// A client's waits are good to about a millisecond. Beyond this speed the ball would do more in
+/// that time than the client can tell (docs/ball.md has the measurement).
+constexpr double greatest_speed = 10;
+
+/// How fast a ball may live.
+Check speeds() {
+  auto check = number_between(0.001, greatest_speed);
+  check.problem = [inside = check.problem](const std::string& text) {
+    const auto speed = parse_real(text);
+    if (!speed || !(*speed > greatest_speed) || !std::isfinite(*speed))
+      return inside(text);
+    return fmt::format(
+        "at {0:g} a client cannot drive the ball: its waits are off by a millisecond "
+        "or so, which is {0:g} ms of the ball's time; write `--speed {1:g}`, or use "
+        "`orb run` and `orb test`, which do not wait at all",
+        *speed, greatest_speed);
+  };
+  return check;
+}
+
+/// The trace's format; nothing where there is no trace.
+std::optional<report::TraceFormat> trace_format(const BallArguments& arguments) {
+  if (arguments.trace.empty() && arguments.trace_out.empty())
+    return std::nullopt;
+  const bool csv = arguments.trace == "csv" ||
+                   (arguments.trace.empty() && arguments.trace_out.ends_with(".csv"));
+  return csv ? report::TraceFormat::Csv : report::TraceFormat::Json;
+}
 
 /// `HOST:PORT`, `:PORT` or `[V6]:PORT`.
 std::optional<serve::ServeOptions::Tcp> parse_address(std::string_view text) {
@@ -104,20 +140,39 @@ void run_ball(Context& context, const BallArguments& arguments) {
   if (!stimulus)
     return fail(context, stimulus.error());
   options.stimulus = *std::move(stimulus);
+  RecordOptions record_options{options.count,       options.robot,    trace_format(arguments),
+                               arguments.trace_out, arguments.report, std::nullopt,
+                               options.stimulus};
   if (!arguments.course.empty()) {
     const auto course = read_course(context, arguments.course);
     if (!course)
       return fail(context, course.error());
     const auto walls = course->stimuli();
     options.stimulus.insert(options.stimulus.begin(), walls.begin(), walls.end());
+    record_options.course = *course;
   }
-  options.announce = print_out;
+  const bool has_data_out =
+      (record_options.trace && arguments.trace_out.empty()) || arguments.report == "-";
+  ServedRecord record(std::move(record_options));
+  if (const auto opened = record.open(); !opened)
+    return fail(context, {ExitCode::File, opened.error().message});
+  options.watch = [&](int index) { return record.watch(index); };
+  options.announce = options.answer = has_data_out ? print_err : print_out;
+  if (arguments.control)
+    options.control = read_input;
+  options.note = [&context](std::string_view message) { print_note(context, message); };
   options.warn = [&context](std::string_view message) {
     print_err(
         fmt::format("orb: {}: {}\n", context.err_style().paint(Role::Warning, "warning"), message));
   };
-  if (const auto served = serve::serve(options); !served)
-    fail(context, {ExitCode::File, served.error().message});
+  const auto served = serve::serve(options);
+  const auto recorded = record.finish();
+  if (!served)
+    fail(context, served.error());
+  else if (record.lost())
+    throw *record.lost();
+  else if (!recorded)
+    fail(context, {ExitCode::File, recorded.error().message});
 }
 
 } // namespace
@@ -129,7 +184,9 @@ void add_ball(const Command& orb, Context& context) {
                       "orb ball --pty=/tmp/sphero --state ball.state --log session.txt\n"
                       "orb ball --tcp :0 --fault drop=1%,flip=0.1%,seed=7\n"
                       "orb ball --bluez=pieces=1..20,drop-once@services\n"
-                      "orb ball --robot bolt --tcp :4242");
+                      "orb ball --robot bolt --tcp :4242\n"
+                      "orb ball --tcp :4242 --trace json --report drive.html\n"
+                      "printf 'at 2s shake\\n' | orb ball --tcp :4242 --control");
   auto arguments = std::make_shared<BallArguments>();
   // A flag, because flags take a value only after `=`.
   command
@@ -151,7 +208,7 @@ void add_ball(const Command& orb, Context& context) {
   command
       .add_option("--speed", arguments->speed,
                   "how many seconds pass on the ball in one real second")
-      .check(number_between(0.001, 1000))
+      .check(speeds())
       .show_default();
   command
       .add_option("--seed", arguments->seed,
@@ -178,8 +235,19 @@ void add_ball(const Command& orb, Context& context) {
   command.add_option("--state", arguments->state, "keeps flash and settings across runs")
       .type_name("FILE");
   command
-      .add_option("--log", arguments->log, "record every byte, in the form that `replay://` reads")
+      .add_option("--log", arguments->log,
+                  "record every byte, and when it passed, in the form that `replay://` reads")
       .type_name("FILE");
+  command
+      .add_option("--trace", arguments->trace, "one event per line, as `orb run --trace` has them")
+      .check(one_of({"json", "csv"}));
+  command.add_option("--trace-out", arguments->trace_out, "the file for the trace");
+  command.add_option("--report", arguments->report,
+                     "writes a page at the end that plays everything back");
+  command.add_flag("--control", arguments->control,
+                   "obey lines of standard input: stimuli such as `shake` or `at 5s push 90 120`, "
+                   "`reset`, `state`; with several balls `2 shake` is for the second, others for "
+                   "all");
   command.callback([&context, arguments] { run_ball(context, *arguments); });
 }
 

@@ -48,6 +48,8 @@ ExitCode serve_debugger(const Context& context) {
   for (;;) {
     while (adapter.busy() && !client_speaks())
       send_all(adapter.work(client_speaks));
+    if (adapter.broken())
+      return ExitCode::Bug;
     const auto n = read_input(bytes);
     if (n < 0 && errno == EINTR && InterruptGuard::asked() == 0)
       continue;
@@ -57,6 +59,8 @@ ExitCode serve_debugger(const Context& context) {
     while (const auto event = reader.next()) {
       send_all(event->is_error ? adapter.receive_garbage(event->text)
                                : adapter.receive(event->text));
+      if (adapter.broken())
+        return ExitCode::Bug;
       if (adapter.ended())
         return ExitCode::Done;
     }

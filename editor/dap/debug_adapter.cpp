@@ -1,18 +1,33 @@
 #include "editor/dap/debug_adapter.h"
 
+#include "base/contain.h"
 #include "editor/dap/session.h"
 
 #include <utility>
 
 namespace orb::editor {
 
+namespace {
+
+/// What the step throws ends the session, once the robot stands still.
+std::vector<std::string> contained(dap::Session& session, const std::function<void()>& step) {
+  const auto done = contain([&]() -> tl::expected<void, Failure> {
+    step();
+    return {};
+  });
+  if (!done)
+    session.break_off(done.error().message);
+  return std::exchange(session.out, {});
+}
+
+} // namespace
+
 DebugAdapter::DebugAdapter(structured::Files& files, std::string folder, OpenRobot open_robot)
     : session_(std::make_unique<dap::Session>(files, std::move(folder), std::move(open_robot))) {}
 DebugAdapter::~DebugAdapter() = default;
 
 std::vector<std::string> DebugAdapter::receive(std::string_view message) {
-  session_->receive(message);
-  return std::exchange(session_->out, {});
+  return contained(*session_, [&] { session_->receive(message); });
 }
 
 std::vector<std::string> DebugAdapter::receive_garbage(std::string_view what) {
@@ -28,9 +43,15 @@ bool DebugAdapter::ended() const {
   return session_->ended;
 }
 
+bool DebugAdapter::broken() const {
+  return session_->broken;
+}
+
 std::vector<std::string> DebugAdapter::work(const std::function<bool()>& interrupted) {
   constexpr std::size_t enough = 64; // messages before the client gets them
-  if (session_->going) {
+  return contained(*session_, [&] {
+    if (!session_->going)
+      return;
     const auto why =
         session_->work([&] { return session_->out.size() >= enough || interrupted(); });
     session_->work = [this](const debug::GiveUp& give_up) {
@@ -38,8 +59,7 @@ std::vector<std::string> DebugAdapter::work(const std::function<bool()>& interru
     };
     if (why.reason != debug::Stop::Reason::GivenUp)
       session_->take(why);
-  }
-  return std::exchange(session_->out, {});
+  });
 }
 
 } // namespace orb::editor

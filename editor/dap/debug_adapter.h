@@ -48,6 +48,8 @@ public:
 
   /// The client has said that it is done.
   bool ended() const;
+  /// A bug of orb has ended the session: the client has been told, and the robot to stop.
+  bool broken() const;
 
 private:
   std::unique_ptr<dap::Session> session_;

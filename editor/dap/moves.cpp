@@ -1,5 +1,6 @@
 #include "editor/dap/session.h"
 
+#include "base/contain.h"
 #include "base/text/utf8.h"
 #include "debug/shell.h"
 
@@ -150,6 +151,17 @@ void Session::finish() {
     return;
   over = true;
   event("exited", {{"exitCode", debugger->fault() || debugger->timeline().lost() ? 1 : 0}});
+  event("terminated", Json::object());
+}
+
+/// The robot first, then the words.
+void Session::break_off(const std::string& why) {
+  broken = true;
+  going = false;
+  if (robot != nullptr)
+    static_cast<void>(contain([this] { return robot->hold(); }));
+  output("stderr", why + "\n");
+  event("exited", {{"exitCode", static_cast<int>(ExitCode::Bug)}});
   event("terminated", Json::object());
 }
 

@@ -60,6 +60,7 @@ struct Session final : debug::Console {
   bool configured = false;
   bool over = false; ///< the client was told that the run is
   bool ended = false;
+  bool broken = false; ///< by a bug: nothing is asked of it any more
   bool going = false;
   std::function<Stop(const debug::GiveUp&)> work; ///< how it goes on
   Stop stop;
@@ -114,6 +115,7 @@ struct Session final : debug::Console {
   void take(const Stop& why);
   void stopped(const char* reason, const Stop& why, const std::string& description = {});
   void finish();
+  void break_off(const std::string& why);
 
   // What can be seen and changed: inspection.cpp.
   Answer threads(const Json& arguments);

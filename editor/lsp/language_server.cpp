@@ -1,5 +1,6 @@
 #include "editor/lsp/language_server.h"
 
+#include "base/contain.h"
 #include "base/text/utf8.h"
 #include "editor/lsp/methods.h"
 
@@ -45,6 +46,14 @@ struct LanguageServer::State {
     send({{"jsonrpc", "2.0"},
           {"id", id},
           {"error", {{"code", static_cast<int>(refusal.error)}, {"message", refusal.message}}}});
+  }
+
+  /// The server lives on: who asked hears of it, or the log where nobody asked.
+  void fail_by_bug(const Json& id, const std::string& what) {
+    if (id.is_null())
+      log(what);
+    else
+      fail(id, {RpcError::InternalError, what});
   }
 
   void take(std::string_view text);
@@ -101,7 +110,12 @@ std::vector<std::string> LanguageServer::answer_next() {
   if (has_waiting()) {
     const auto next = std::move(state_->waiting.front());
     state_->waiting.pop_front();
-    state_->answer(next);
+    const auto answered = contain([&]() -> tl::expected<void, Failure> {
+      state_->answer(next);
+      return {};
+    });
+    if (!answered)
+      state_->fail_by_bug(member(next.message, "id"), answered.error().message);
   }
   return std::exchange(state_->out, {});
 }

@@ -16,6 +16,7 @@ enum class RpcError : int {
   InvalidRequest = -32600,
   MethodNotFound = -32601,
   InvalidParams = -32602,
+  InternalError = -32603,
   ServerNotInitialized = -32002,
   RequestFailed = -32803,
   RequestCancelled = -32800,

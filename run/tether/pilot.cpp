@@ -1,5 +1,7 @@
 #include "run/tether/pilot.h"
 
+#include "base/contain.h"
+
 #include "spec/ball.h"
 #include "spec/basic.h"
 
@@ -136,6 +138,20 @@ std::string Pilot::words() const {
   if (battery_)
     text += fmt::format(", {:.2f} V", battery_->volts);
   return text;
+}
+
+Attended drive_attended(Tether& robot, const TetherOptions& tether,
+                        const std::function<tl::expected<void, Failure>()>& drive) {
+  Attended end{contain(drive), false, nullptr};
+  end.stopped = robot.finish();
+  if (end.stopped || end.driven || end.driven.error().code != ExitCode::LinkLost || !tether.reopen)
+    return end;
+  end.link = tether.reopen();
+  if (end.link != nullptr) {
+    robot.relink(*end.link);
+    end.stopped = robot.finish();
+  }
+  return end;
 }
 
 } // namespace orb::run

@@ -1,12 +1,16 @@
 #pragma once
 
+#include "run/tether/run_tethered.h"
 #include "run/tether/tether.h"
 #include "spec/robots.h"
 #include "vm/matrix.h"
 
 #include <cstdint>
+#include <functional>
+#include <memory>
 #include <optional>
 #include <string>
+#include <tl/expected.hpp>
 
 namespace orb::run {
 
@@ -68,5 +72,17 @@ private:
   std::uint64_t blows_ = 0;
   std::optional<Instant> stops_at_;
 };
+
+/// How a drive under somebody's eyes ended.
+struct Attended {
+  tl::expected<void, Failure> driven;
+  bool stopped = false;                      ///< the robot has acknowledged the stop
+  std::unique_ptr<protocol::Transport> link; ///< over which, where the first was lost
+};
+
+/// Lets `drive` drive a robot that has been readied, then stops it, whatever became of the drive:
+/// also of one that threw (see contain()). Where the link was lost, it is opened again for that.
+Attended drive_attended(Tether& robot, const TetherOptions& tether,
+                        const std::function<tl::expected<void, Failure>()>& drive);
 
 } // namespace orb::run

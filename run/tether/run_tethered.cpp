@@ -1,5 +1,6 @@
 #include "run/tether/run_tethered.h"
 
+#include "base/contain.h"
 #include "run/live.h"
 #include "run/tether/driven.h"
 
@@ -9,29 +10,38 @@
 namespace orb::run {
 namespace {
 
+struct Nobody final : Listener {
+  void on_event(Duration, const vm::Event&) override {}
+  void on_fault(Duration, const ProgramError&) override {}
+};
+
 /// Hands everything on, and notes the numbers that were given.
 class Tap final : public Listener {
 public:
   Tap(Listener& inner, std::function<void(std::int32_t)> on_number)
-      : inner_(inner), on_number_(std::move(on_number)) {}
+      : inner_(&inner), on_number_(std::move(on_number)) {}
 
-  void on_start(const vm::Ball& ball) override { inner_.on_start(ball); }
-  void on_event(Duration t, const vm::Event& event) override { inner_.on_event(t, event); }
-  void on_fault(Duration t, const ProgramError& fault) override { inner_.on_fault(t, fault); }
-  void on_step(Duration t, const vm::Body& body) override { inner_.on_step(t, body); }
-  void on_time(Duration t) override { inner_.on_time(t); }
-  void on_end(const Ending& ending) override { inner_.on_end(ending); }
-  bool enough() const override { return inner_.enough(); }
-  bool has_more_numbers() const override { return inner_.has_more_numbers(); }
+  /// Nobody is told anything any more: whoever hears it has thrown.
+  void close() { inner_ = &nobody_; }
+
+  void on_start(const vm::Ball& ball) override { inner_->on_start(ball); }
+  void on_event(Duration t, const vm::Event& event) override { inner_->on_event(t, event); }
+  void on_fault(Duration t, const ProgramError& fault) override { inner_->on_fault(t, fault); }
+  void on_step(Duration t, const vm::Body& body) override { inner_->on_step(t, body); }
+  void on_time(Duration t) override { inner_->on_time(t); }
+  void on_end(const Ending& ending) override { inner_->on_end(ending); }
+  bool enough() const override { return inner_->enough(); }
+  bool has_more_numbers() const override { return inner_->has_more_numbers(); }
   std::optional<std::int32_t> ask_number() override {
-    const auto number = on_number_ ? inner_.ask_number() : std::nullopt;
+    const auto number = on_number_ ? inner_->ask_number() : std::nullopt;
     if (number)
       on_number_(*number);
     return number;
   }
 
 private:
-  Listener& inner_;
+  Nobody nobody_;
+  Listener* inner_;
   std::function<void(std::int32_t)> on_number_; ///< empty: numbers come from elsewhere
 };
 
@@ -48,6 +58,10 @@ void tell_stop(Listener& listener, report::Journey* journey, Duration t, bool st
   listener.on_event(t, vm::event::StopLost{});
   if (journey != nullptr)
     journey->add(t, vm::event::StopLost{});
+}
+
+bool is_bug(const std::optional<Failure>& failure) {
+  return failure && failure->code == ExitCode::Bug;
 }
 
 Ending finished(Ending ending, bool stopped) {
@@ -105,14 +119,23 @@ tl::expected<TetheredEnding, Failure> run_tethered(std::span<const Input> inputs
     (*live)->keep_waiting();
   Driven run(**live, robot, tap, tether);
   std::optional<Failure> failure;
-  for (auto course = run.step(); course != Driven::Course::Ends; course = run.step())
-    if (!course) {
-      failure = course.error();
-      break;
-    }
-  run.end();
+  const auto driven = contain([&]() -> tl::expected<void, Failure> {
+    for (auto course = run.step(); course != Driven::Course::Ends; course = run.step())
+      if (!course)
+        return tl::unexpected(course.error());
+    return {};
+  });
+  if (!driven)
+    failure = driven.error();
   over = true;
-  bool stopped = robot.finish(run.hear());
+  bool stopped = false;
+  if (is_bug(failure)) {
+    tap.close();
+    stopped = robot.finish();
+  } else {
+    run.end();
+    stopped = robot.finish(run.hear());
+  }
   std::unique_ptr<protocol::Transport> second;
   const bool lost = robot.link_lost() || (failure && failure->code == ExitCode::LinkLost);
   if (!stopped && tether.reopen && lost) {
@@ -124,6 +147,9 @@ tl::expected<TetheredEnding, Failure> run_tethered(std::span<const Input> inputs
   }
   if (!failure)
     failure = robot.verdict();
+  if (is_bug(failure))
+    return TetheredEnding{
+        finished((*live)->so_far(), stopped), std::move(failure), tether.robot, {}};
   tell_stop(tap, journey, (*live)->time(), stopped);
   auto ending = (*live)->finish();
   if (!ending)

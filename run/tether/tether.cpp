@@ -1,5 +1,7 @@
 #include "run/tether/tether.h"
 
+#include "base/contain.h"
+
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -34,8 +36,11 @@ Tether::Tether(protocol::Transport& transport, spec::Robot robot, const TetherBu
       looked_at_(transport.now()) {}
 
 Tether::~Tether() {
-  if (began_ && !finished_)
-    finish();
+  if (began_ && !finished_) // nothing may be thrown here, and nobody is there who could be told
+    static_cast<void>(contain([this]() -> tl::expected<void, Failure> {
+      finish();
+      return {};
+    }));
 }
 
 Failure Tether::lost(const LinkError& error) const {
@@ -275,7 +280,7 @@ void Tether::obey(const vm::Motion& motion) {
     if (stabilized_ && (loose_ || !was_stabilized))
       return want_stop();
     if (was_stabilized == stabilized_ && *mode != vm::Stabilization::OnAndReset)
-      return; // said again and again it would leave nothing else a turn
+      return;                             // said again and again it would leave nothing else a turn
     if (was_stabilized && !stabilized_) { // it rolls on unpowered
       waiting(Kind::Drive).reset();
       driving_.reset();
@@ -631,8 +636,9 @@ void Tether::await_rest(const std::function<void(const Said&)>& hear) {
 }
 
 bool Tether::finish(const std::function<void(const Said&)>& hear) {
-  finished_ = true;
-  if (!brake(hear))
+  const bool braked = brake(hear);
+  finished_ = true; // not before: whoever hears may throw
+  if (!braked)
     return false;
   if (hear)
     await_rest(hear);

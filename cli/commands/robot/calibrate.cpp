@@ -1,3 +1,4 @@
+#include "base/contain.h"
 #include "base/refuse.h"
 #include "cli/commands/commands.h"
 #include "cli/context/console.h"
@@ -74,9 +75,11 @@ tl::expected<std::vector<run::Leg>, Failure> drive_course(Context& context, Driv
   if (!held)
     return tl::unexpected(held.error());
   const bool shows = !context.quiet && is_terminal(Stream::Err);
-  auto legs = run::drive_course(**held, robot.tether.robot, [&](int done, int all) {
-    if (shows)
-      print_err(fmt::format("\r\033[K{} of {}{}", done, all, done == all ? "\n" : ""));
+  auto legs = contain([&] {
+    return run::drive_course(**held, robot.tether.robot, [&](int done, int all) {
+      if (shows)
+        print_err(fmt::format("\r\033[K{} of {}{}", done, all, done == all ? "\n" : ""));
+    });
   });
   const auto stopped = (*held)->hold();
   print_note(context, stopped ? run::stop_done : run::stop_lost);

@@ -219,7 +219,8 @@ private:
   tl::expected<void, Failure> live(Duration time) {
     for (const auto until = robot_.now() + time; robot_.now() < until;) {
       if (page_ != nullptr)
-        page_->poll();
+        if (auto served = page_->poll(); !served)
+          return served;
       pilot_.watch();
       if (auto pumped = robot_.pump(std::min(until, robot_.now() + glance),
                                     [&](const run::Said& said) { pilot_.hear(said); });
@@ -258,25 +259,6 @@ private:
   std::unique_ptr<serve::PageServer> page_;
 };
 
-struct Stopped {
-  bool stopped = false;
-  std::unique_ptr<protocol::Transport> link; ///< over which, where the first was lost
-};
-
-/// Stops the robot, over a new link where the first was lost.
-Stopped stop(run::Tether& robot, const tl::expected<void, Failure>& driven,
-             const run::TetherOptions& tether) {
-  Stopped end{robot.finish(), nullptr};
-  if (end.stopped || driven || driven.error().code != ExitCode::LinkLost || !tether.reopen)
-    return end;
-  end.link = tether.reopen();
-  if (end.link != nullptr) {
-    robot.relink(*end.link);
-    end.stopped = robot.finish();
-  }
-  return end;
-}
-
 tl::expected<void, Failure> drive_by_hand(Context& context, const DriveOptions& options) {
   const InterruptGuard guard;
   auto connected = connect_robot(context, options.port, options.robot);
@@ -308,20 +290,22 @@ tl::expected<void, Failure> drive_by_hand(Context& context, const DriveOptions& 
   if (keys.from_terminal())
     print_note(context, key_help());
   std::optional<OutputError> unread; // nobody reads any more
-  tl::expected<void, Failure> driven;
-  try {
-    driven = session.go(keys);
-    keys.give_back();
-    if (keys.from_terminal())
-      print_out("\n");
-  } catch (const OutputError& error) {
-    unread = error;
-  }
-  const auto second = stop(robot, driven, tether);
-  const bool stopped = second.stopped;
+  const auto end = run::drive_attended(robot, tether, [&]() -> tl::expected<void, Failure> {
+    try {
+      auto driven = session.go(keys);
+      keys.give_back();
+      if (keys.from_terminal())
+        print_out("\n");
+      return driven;
+    } catch (const OutputError& error) {
+      unread = error;
+      return {};
+    }
+  });
+  const auto& [driven, stopped, second] = end;
   print_note(context, stopped ? run::stop_done : run::stop_lost);
   if (options.sleeps) {
-    const auto slept = second.link != nullptr || !stopped
+    const auto slept = second != nullptr || !stopped
                            ? left_awake()
                            : put_to_sleep(*link.transport, tether.robot, link);
     print_note(context, slept.words);

@@ -1,10 +1,13 @@
 // Texts that nobody writes: each request is answered, in time.
 
+#include "editor/dap/debug_adapter.h"
 #include "tests/unit/editor/client.h"
 
 #include <array>
 #include <chrono>
 #include <gtest/gtest.h>
+#include <memory>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -93,6 +96,79 @@ TEST(HostileText, IsAnsweredInTime) {
   for (const auto& [what, text] : texts())
     for (const auto* ending : {"bas", "orb", "macro", "test"})
       EXPECT_LT(seconds_of(ending, text), most) << what << " in a ." << ending;
+}
+
+/// A disk on which everything fails in a way that nobody has thought of.
+struct BrokenDisk final : structured::Files, Folders {
+  std::optional<std::string> read(const std::string&) override {
+    throw std::runtime_error("a vase fell");
+  }
+  std::vector<std::string> sources(const std::string&) override {
+    throw std::runtime_error("a vase fell");
+  }
+};
+
+TEST(Hostile, ABugIsTheAnswerToOneRequest) {
+  BrokenDisk disk;
+  LanguageServer server(&disk, &disk);
+  server.receive(R"({"id":0,"method":"initialize","params":{"rootUri":"file:///p"}})");
+  const auto broken = server.receive(R"({"id":1,"method":"workspace/symbol","params":{}})");
+  ASSERT_EQ(broken.size(), 1U);
+  const auto answer = Json::parse(broken.front());
+  EXPECT_EQ(answer["id"], 1);
+  EXPECT_EQ(answer["error"]["code"], -32603);
+  EXPECT_TRUE(has(answer["error"]["message"].get<std::string>(), "a vase fell"));
+  const auto after = server.receive(R"({"id":2,"method":"shutdown"})");
+  ASSERT_EQ(after.size(), 1U);
+  EXPECT_EQ(Json::parse(after.front())["id"], 2);
+}
+
+/// A robot that is elsewhere, and whether it was told to stand still.
+struct FarBody final : run::HeldRobot {
+  explicit FarBody(int& count) : holds(count) {}
+  const vm::Sample& first() const override { return sample; }
+  tl::expected<void, Failure> go_on(Duration) override { return {}; }
+  Duration time() const override { return {}; }
+  tl::expected<std::vector<run::Felt>, Failure> hear(Duration) override {
+    throw std::runtime_error("a vase fell");
+  }
+  tl::expected<void, Failure> hold() override {
+    ++holds;
+    return {};
+  }
+  void obey(const vm::Motion&) override {}
+  void show(vm::Color) override {}
+  void show_back(int) override {}
+  vm::Sample sample;
+  int& holds;
+};
+
+TEST(Hostile, ABugEndsADebuggerOnceItsRobotStandsStill) {
+  int holds = 0;
+  Disk disk;
+  disk.texts["/p/a.bas"] = "10 goroll 0,60,1\n20 delay 5000\n";
+  DebugAdapter adapter(disk, "/p", [&](const std::string&, const std::string&) {
+    return tl::expected<std::shared_ptr<run::HeldRobot>, Failure>(std::make_shared<FarBody>(holds));
+  });
+  std::string said;
+  const auto add = [&](const std::vector<std::string>& messages) {
+    for (const auto& message : messages)
+      said += message + "\n";
+  };
+  for (
+      const auto* text :
+      {R"({"seq":1,"type":"request","command":"initialize","arguments":{}})",
+       R"({"seq":2,"type":"request","command":"launch","arguments":{"program":"/p/a.bas","port":"far"}})",
+       R"({"seq":3,"type":"request","command":"configurationDone"})"})
+    add(adapter.receive(text));
+  ASSERT_TRUE(adapter.busy()) << said;
+  const auto before = holds;
+  for (int i = 0; i < 100 && adapter.busy(); ++i)
+    add(adapter.work([] { return false; }));
+  EXPECT_TRUE(adapter.broken()) << said;
+  EXPECT_GT(holds, before);
+  EXPECT_TRUE(has(said, "a vase fell")) << said;
+  EXPECT_TRUE(has(said, R"("exitCode":70)")) << said;
 }
 
 } // namespace

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -128,6 +129,38 @@ TEST(Pilot, ARobotWithoutAMatrixIsToldNothing) {
   scene.pilot.clear_matrix();
   scene.live(1s);
   EXPECT_EQ(scene.link.on_matrix(), "");
+}
+
+/// Drives off and does not stop.
+tl::expected<void, Failure> set_off(Tether& robot) {
+  robot.obey(vm::Roll{0, 80, vm::Go::Drive});
+  for (const auto end = robot.now() + 1s; robot.now() < end;)
+    if (auto pumped = robot.pump(end, [](const Said&) {}); !pumped)
+      return pumped;
+  return {};
+}
+
+TEST(Attended, StopsTheRobotWhateverHappens) {
+  for (const auto& row : spec::robots)
+    for (const bool breaks : {false, true}) {
+      test::FarRobot far(row.robot, *protocol::parse_fault_plan("seed=1"), 10ms);
+      Tether robot(*far.link, row.robot, TetherBudgets{});
+      ASSERT_TRUE(robot.begin(Aim::Zero)) << row.name;
+      const auto end = drive_attended(robot, {}, [&]() -> tl::expected<void, Failure> {
+        auto driven = set_off(robot);
+        EXPECT_TRUE(far.drives()) << row.name;
+        if (breaks)
+          throw std::runtime_error("a vase fell");
+        return driven;
+      });
+      EXPECT_TRUE(end.stopped) << row.name;
+      EXPECT_FALSE(far.drives()) << row.name << " is left driving";
+      EXPECT_EQ(end.driven.has_value(), !breaks) << row.name;
+      if (breaks) {
+        EXPECT_EQ(end.driven.error().code, ExitCode::Bug) << row.name;
+        EXPECT_NE(end.driven.error().message.find("a vase fell"), std::string::npos);
+      }
+    }
 }
 
 } // namespace

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <memory>
+#include <stdexcept>
 
 namespace orb::run {
 namespace {
@@ -124,6 +125,52 @@ TEST(Tether, RawMotorsGoOffHoweverARunEnds) {
     ASSERT_TRUE(driven && driven->failure) << row.name;
     EXPECT_EQ(driven->failure->code, ExitCode::Interrupted) << row.name;
     EXPECT_TRUE(driven->ending.robot_stopped.value_or(false)) << row.name;
+    EXPECT_FALSE(robot.drives()) << row.name << " is left driving";
+    EXPECT_TRUE(robot.ball->body().stabilized()) << row.name;
+  }
+}
+
+/// Whoever hears the run has a bug, from its first drive on.
+struct Broken final : Listener {
+  void on_event(Duration, const vm::Event& event) override {
+    broken = broken || std::holds_alternative<vm::event::Drive>(event);
+    if (broken)
+      throw std::runtime_error("a vase fell");
+  }
+  void on_fault(Duration, const ProgramError&) override {}
+  bool broken = false;
+};
+
+TEST(Tether, ABugStopsTheRobotBeforeItIsTold) {
+  for (const auto& row : spec::robots) {
+    Robot robot(row.robot);
+    Broken heard;
+    TetherOptions options;
+    options.robot = row.robot;
+    const auto driven =
+        run_tethered(test::program_of(roll_for_ever), {}, heard, nullptr, *robot.link, options);
+    ASSERT_TRUE(driven && driven->failure) << row.name;
+    EXPECT_EQ(driven->failure->code, ExitCode::Bug) << row.name;
+    EXPECT_TRUE(driven->ending.robot_stopped.value_or(false)) << row.name;
+    EXPECT_FALSE(robot.drives()) << row.name << " is left driving";
+  }
+}
+
+TEST(Tether, IsStoppedWhereWhoeverHearsItStopThrows) {
+  for (const auto& row : spec::robots) {
+    // Samples come before the answers to the stop.
+    test::FarRobot robot(row.robot, *protocol::parse_fault_plan("seed=1"), 300ms);
+    {
+      Tether tether(*robot.link, row.robot, TetherBudgets{});
+      ASSERT_TRUE(tether.begin(Aim::Zero)) << row.name;
+      tether.obey(vm::Motors{{vm::MotorMode::Forward, 120}, {vm::MotorMode::Forward, 120}});
+      for (const auto end = tether.now() + 1s; tether.now() < end;)
+        ASSERT_TRUE(tether.pump(end, [](const Said&) {})) << row.name;
+      EXPECT_TRUE(robot.drives()) << row.name;
+      EXPECT_THROW(tether.finish([](const Said&) { throw std::runtime_error("a vase fell"); }),
+                   std::runtime_error)
+          << row.name;
+    }
     EXPECT_FALSE(robot.drives()) << row.name << " is left driving";
     EXPECT_TRUE(robot.ball->body().stabilized()) << row.name;
   }

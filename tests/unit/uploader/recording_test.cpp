@@ -75,6 +75,16 @@ TEST(Recording, IsHeardToItsEndByAClientThatOnlyListens) {
   FAIL() << "it never ends";
 }
 
+TEST(Recording, MayBeginLinesWithATime) {
+  const auto pieces = parse_recording("0.000 > FF FF\n12.5\t< 01\n");
+  ASSERT_TRUE(pieces) << pieces.error();
+  ASSERT_EQ(pieces->size(), 2U);
+  EXPECT_EQ((*pieces)[0].direction, protocol::Direction::ToBall);
+  EXPECT_EQ(to_hex((*pieces)[1].bytes), "01");
+  for (const auto* line : {"12.5", "12.5 FF", "12.5 13.5 > FF"})
+    EXPECT_FALSE(parse_recording(line)) << line;
+}
+
 TEST(Recording, NamesALineThatIsNone) {
   EXPECT_EQ(parse_recording("> FF\r\n\n# x\n< 0\n").error(),
             "line 4 is not `> FF FF …` (sent) or `< FF FF …` (received)");
