@@ -43,7 +43,8 @@ std::string_view why(const vm::event::MacroEnd& end) {
   case vm::event::MacroEnd::Reason::NoSuchMacro:
     return "it jumps to an id that no macro on the ball has; add that macro to the command line";
   case vm::event::MacroEnd::Reason::BadCommand:
-    return "what follows is not a complete command; see `orb asm --listing`";
+    return "what follows is not a complete command, or this firmware lacks it; see `orb asm "
+           "--listing`";
   case vm::event::MacroEnd::Reason::StreamEnd: return "`stream_end` ends only streams; write `end`";
   case vm::event::MacroEnd::Reason::Inhibited:
     return "it leads to a macro that `inh_if_conn` keeps from running while a client is connected";

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "spec/api.h"
+#include "spec/basic.h"
 #include "spec/limits.h"
 
 #include <array>
@@ -44,21 +45,40 @@ constexpr std::uint16_t ram_bytes_of(Revision api) {
   return 0;
 }
 
+/// An orbBasic (packed nibbles) and the API that is as old.
+struct BasicAge {
+  std::uint8_t orbbasic;
+  Revision api;
+};
+
+inline constexpr auto basic_ages = std::to_array<BasicAge>({
+#define ORBBASIC_API(version, major, minor) {version, {major, minor}},
+#include "spec/firmware.def"
+});
+
 /// The API revision behind a record of 8 bytes, as far as its orbBasic tells; 0.0 where it does
 /// not.
 constexpr Revision api_of(std::uint8_t orbbasic) {
-  struct Row {
-    std::uint8_t since;
-    Revision api;
-  };
-  constexpr auto rows = std::to_array<Row>({
-#define ORBBASIC_API(since, major, minor) {since, {major, minor}},
-#include "spec/firmware.def"
-  });
-  for (const auto& row : rows)
-    if (orbbasic >= row.since)
+  for (const auto& row : basic_ages)
+    if (orbbasic >= row.orbbasic)
       return row.api;
   return {};
+}
+
+/// The language of a ball whose version record tells an orbBasic (packed nibbles) and an API: as
+/// new as the newer of the two. A version that has no row adds nothing to the one before.
+constexpr BasicVersion language_of(std::uint8_t orbbasic, Revision api) {
+  for (const auto& row : basic_ages)
+    if (api >= row.api && orbbasic < row.orbbasic)
+      orbbasic = row.orbbasic;
+  const auto nibbles = [](std::string_view text) { // `1.6`
+    return (text.front() - '0') << 4 | (text.back() - '0');
+  };
+  auto language = basic_versions.front().version;
+  for (const auto& row : basic_versions)
+    if (orbbasic >= nibbles(row.text))
+      language = row.version;
+  return language;
 }
 
 /// Where a model keeps its firmware.
@@ -105,6 +125,10 @@ struct FirmwareInfo {
   /// The orbBasic version in packed nibbles: 16h is 1.6; 0 where there is none.
   constexpr std::uint8_t orbbasic() const { return record_bytes[version_orbbasic_at]; }
   constexpr bool has_orbbasic() const { return orbbasic() != 0; }
+  /// What its programs are written in, where it has orbBasic.
+  constexpr BasicVersion language() const { return language_of(orbbasic(), api); }
+  /// The version of the macro executive, as in spec/macro.def.
+  constexpr std::uint8_t macro_executive() const { return record_bytes[version_macro_at]; }
   /// Whether there is a firmware that the bootloader can start.
   constexpr bool has_firmware() const {
     return record_bytes[version_firmware_at] != 0 || record_bytes[version_firmware_at + 1] != 0;

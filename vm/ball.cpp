@@ -17,7 +17,9 @@ constexpr Duration pose_interval = std::chrono::milliseconds{50};
 
 ProgramOptions program_options(const BallOptions& options) {
   ProgramOptions programs = options;
-  if (spec::info(options.firmware).ranges == spec::Ranges::Lenient)
+  const auto& firmware = spec::info(options.firmware);
+  programs.language = firmware.language();
+  if (firmware.ranges == spec::Ranges::Lenient)
     programs.ranges = spec::Ranges::Lenient;
   return programs;
 }
@@ -28,7 +30,8 @@ Ball::Ball(const BallOptions& options)
     : asks_(std::make_unique<Asks>(*this)), observer_(options.observer), gate_(options.gate),
       body_(options.seed, options.driving, options.start, options.robot), link_(options.wire),
       drive_(body_, settings_), power_(settings_),
-      programs_(program_options(options), options.seed), macros_(asks_->of_macro),
+      programs_(program_options(options), options.seed),
+      macros_(asks_->of_macro, spec::info(options.firmware).macro_executive()),
       dispatcher_(asks_->of_client, options.seed, options.firmware) {
   body_.observe(options.steps);
   const auto battery = spec::battery(options.robot);

@@ -52,7 +52,8 @@ Outcome Programs::execute(Area area, int line, Instant now) {
     program.remove_suffix(1);
   area_ = area;
   flags_ = 0;
-  machine_.start(options_.loader ? options_.loader(program) : bytecode::Chunk{}, line, now);
+  machine_.start(options_.loader ? options_.loader(program, options_.language) : bytecode::Chunk{},
+                 line, now);
   return Outcome::Done;
 }
 

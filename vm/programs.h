@@ -18,8 +18,8 @@
 namespace orb::vm {
 
 /// Compiles the text of a program area. It never fails: a line that does not parse becomes a trap
-/// with the robot's own error.
-using Loader = bytecode::Chunk (*)(std::string_view text);
+/// with the robot's own error, and so does a statement of a later language.
+using Loader = bytecode::Chunk (*)(std::string_view text, spec::BasicVersion language);
 
 using spec::Area;
 
@@ -27,9 +27,10 @@ struct ProgramOptions {
   std::uint32_t lines_per_second = static_cast<std::uint32_t>(
       spec::value_of(spec::Limit::LinesPerSecond)); ///< from 1 to 1 000 000 000
   std::size_t ram_bytes = static_cast<std::size_t>(spec::value_of(spec::Limit::RamBytes));
-  Loader loader = nullptr;                        ///< without it every program is empty
-  bool trace_lines = false;                       ///< the observer is told every line
-  spec::Ranges ranges = spec::Ranges::Documented; ///< Lenient also where the firmware is
+  Loader loader = nullptr;                                   ///< without it every program is empty
+  spec::BasicVersion language = spec::default_basic_version; ///< in a ball that of its firmware
+  bool trace_lines = false;                                  ///< the observer is told every line
+  spec::Ranges ranges = spec::Ranges::Documented;            ///< Lenient also where the firmware is
   Dispatch dispatch = Dispatch::Threaded;
   Native native = Native::Auto;
   NativePrograms* native_programs = nullptr; ///< machine code that balls share; must outlive them

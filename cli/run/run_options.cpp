@@ -5,6 +5,7 @@
 #include "cli/input/inputs.h"
 #include "cli/robot/ball_profile.h"
 
+#include <algorithm>
 #include <charconv>
 #include <fmt/format.h>
 
@@ -65,6 +66,8 @@ tl::expected<run::Options, Failure> read_options(const Context& context, const R
   if (given.lenient)
     options.ranges = spec::Ranges::Lenient;
   options.target = given.target.target();
+  options.target.version =
+      std::min(options.target.version, spec::info(options.firmware).language());
   if (given.target.ram != 0)
     options.ram_bytes = static_cast<std::size_t>(given.target.ram);
   constexpr Duration frame = 20ms;

@@ -3,6 +3,7 @@
 #include "run/cause/places.h"
 
 #include "compiler/check.h"
+#include "compiler/text/rules.h"
 #include "run/run.h"
 #include "spec/limits.h"
 
@@ -369,11 +370,14 @@ namespace {
 void add_finding(ProgramError& fault, const Source& source, std::string_view text,
                  const compiler::Target& target) {
   const auto checked = compiler::check(text, target);
-  const auto found = std::find_if(checked.diagnostics.begin(), checked.diagnostics.end(),
-                                  [&](const Diagnostic& one) {
-                                    return one.rule->robot_error == spec::code(fault.code) &&
-                                           source.position(one.span.begin).line == fault.place.line;
-                                  });
+  const auto stops_so = [&](const Diagnostic& one) {
+    return one.rule->robot_error == spec::code(fault.code) ||
+           (one.rule == &compiler::rules::NewerThanTarget && fault.code == BasicError::SyntaxError);
+  };
+  const auto found = std::find_if(
+      checked.diagnostics.begin(), checked.diagnostics.end(), [&](const Diagnostic& one) {
+        return stops_so(one) && source.position(one.span.begin).line == fault.place.line;
+      });
   if (found == checked.diagnostics.end())
     return;
   fault.finding = found->message;

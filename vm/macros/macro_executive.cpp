@@ -300,7 +300,8 @@ void MacroExecutive::run_command() {
     return;
   }
   const auto step = protocol::read_macro_command(code_, next_);
-  if (!step)
+  const bool own = spec::macro_id_kind(id_) == spec::MacroIdKind::System;
+  if (!step || (step->info->executive > version_ && !own))
     return finish(MacroEnding::BadCommand);
   if (!host_->may_begin()) {
     held_ = true;

@@ -50,7 +50,9 @@ inline constexpr int macro_commands_per_tick = 64;
 /// before what it causes.
 class MacroExecutive {
 public:
-  explicit MacroExecutive(MacroHost& host) : host_(&host) {}
+  /// `version` is its own: a user's macro aborts at a command that is newer.
+  explicit MacroExecutive(MacroHost& host, std::uint8_t version = spec::macro_executive_newest)
+      : host_(&host), version_(version) {}
   /// A copy that serves another ball.
   MacroExecutive(const MacroExecutive& other, MacroHost& host);
   MacroExecutive& operator=(const MacroExecutive&) = delete;
@@ -174,6 +176,7 @@ private:
   MacroOutcome save_stream(const protocol::MacroHeader& header, ByteView commands);
 
   MacroHost* host_;
+  std::uint8_t version_;
   MacroStore store_;
   Parameters parameters_;
   Instant now_{};

@@ -102,6 +102,20 @@ TEST_F(Executive, MarkersCarryTheIdAndTheNumberOfTheCommand) {
             "0 marker AA FF 2\n0 marker BB FF 3\n0 marker 00 FF 4\n0 ended 4\n");
 }
 
+TEST_F(Executive, AbortsAtACommandThatIsNewerThanItself) {
+  MacroExecutive old{log, 2};
+  ASSERT_EQ(old.save_temporary(*from_hex("FF 00 15 AA 1E 03 1F 00"), log.now), MacroOutcome::Done);
+  ASSERT_EQ(old.start(spec::macro_id_temporary, log.now), MacroOutcome::Done);
+  old.advance_to(log.now + 1s);
+  EXPECT_EQ(log.take(), "0 marker AA FF 1\n");
+  const auto stop = old.take_finished();
+  ASSERT_TRUE(stop);
+  EXPECT_EQ(stop->end.reason, event::MacroEnd::Reason::BadCommand);
+  EXPECT_EQ(old.start(2, log.now), MacroOutcome::Done) << "its own macros it knows";
+  old.advance_to(log.now + 10s);
+  EXPECT_EQ(old.take_finished()->end.reason, event::MacroEnd::Reason::Ended);
+}
+
 TEST_F(Executive, AUserMacroKeepsItsId) {
   load("40 14 15 AA 15 BB 00");
   EXPECT_EQ(executive.start(0x40, log.now), MacroOutcome::Done);
