@@ -273,9 +273,10 @@ tl::expected<void, Failure> run_files(Context& context, RunOptions given) {
   if (*profile)
     hint_at_guesses(context, given, **profile, console);
   if (ending->robot_stopped)
-    print_note(context, stop_note(*ending));
+    print_ended(context, *ending->robot_stopped ? ExitCode::Done : ExitCode::LinkLost,
+                stop_note(*ending));
   if (slept)
-    print_note(context, slept->words);
+    print_ended(context, slept->exit, slept->words);
   if (!ending->only_interpreted.empty() && context.verbosity > 0)
     print_note(context, fmt::format("only interpreted: {}", ending->only_interpreted));
   write_perf_map(context, ending->machine_code);

@@ -111,6 +111,13 @@ void print_error(const Context& context, std::string_view message) {
                         on_one_line(message)));
 }
 
+void print_ended(const Context& context, ExitCode how, std::string_view message) {
+  if (how == ExitCode::Done)
+    print_note(context, message);
+  else
+    print_error(context, message);
+}
+
 void fail(Context& context, const Failure& failure) {
   print_error(context, failure.message);
   context.exit = failure.code;

@@ -64,6 +64,9 @@ void print_note(const Context& context, std::string_view message);
 /// Prints `orb: error: MESSAGE` to stderr.
 void print_error(const Context& context, std::string_view message);
 
+/// Prints how something ended: a note where that is Done, else an error, which -q does not silence.
+void print_ended(const Context& context, ExitCode how, std::string_view message);
+
 /// Prints why the command cannot do what it should, and leaves the code to end with.
 void fail(Context& context, const Failure& failure);
 

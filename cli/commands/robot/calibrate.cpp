@@ -82,7 +82,8 @@ tl::expected<std::vector<run::Leg>, Failure> drive_course(Context& context, Driv
     });
   });
   const auto stopped = (*held)->hold();
-  print_note(context, stopped ? run::stop_done : run::stop_lost);
+  print_ended(context, stopped ? ExitCode::Done : ExitCode::LinkLost,
+              stopped ? run::stop_done : run::stop_lost);
   if (legs && !stopped)
     return tl::unexpected(stopped.error());
   return legs;

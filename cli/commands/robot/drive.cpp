@@ -303,12 +303,13 @@ tl::expected<void, Failure> drive_by_hand(Context& context, const DriveOptions& 
     }
   });
   const auto& [driven, stopped, second] = end;
-  print_note(context, stopped ? run::stop_done : run::stop_lost);
+  print_ended(context, stopped ? ExitCode::Done : ExitCode::LinkLost,
+              stopped ? run::stop_done : run::stop_lost);
   if (options.sleeps) {
     const auto slept = second != nullptr || !stopped
                            ? left_awake()
                            : put_to_sleep(*link.transport, tether.robot, link);
-    print_note(context, slept.words);
+    print_ended(context, slept.exit, slept.words);
     context.exit = slept.exit;
   }
   if (unread && InterruptGuard::asked() == 0)

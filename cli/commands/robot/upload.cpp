@@ -173,7 +173,7 @@ ExitCode finish(const Context& context, const UploadOptions& options, Link& link
   const auto slept = exit == ExitCode::LinkLost
                          ? left_awake()
                          : put_to_sleep(*link.transport, spec::Robot::Sphero, link);
-  print_note(context, slept.words);
+  print_ended(context, slept.exit, slept.words);
   return exit == ExitCode::Done ? slept.exit : exit;
 }
 
