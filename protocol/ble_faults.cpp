@@ -37,8 +37,8 @@ constexpr auto places = std::to_array<Place>({{"drop@", &BleFaultPlan::drop},
                                               {"refuse-once@", &BleFaultPlan::balk_once},
                                               {"vanish@", &BleFaultPlan::vanish}});
 
-constexpr auto others =
-    std::to_array<std::string_view>({"pieces=", "late=", "interval=", "lose=", "refuse=", "seed="});
+constexpr auto others = std::to_array<std::string_view>(
+    {"pieces=", "links=", "late=", "interval=", "lose=", "refuse=", "seed="});
 
 std::vector<std::string_view> all_words() {
   std::vector<std::string_view> words(others.begin(), others.end());
@@ -82,6 +82,13 @@ tl::expected<void, std::string> read_value(std::string_view item, std::string_vi
     if (!read_pieces(value, plan))
       return wrong_word(item, fmt::format("pieces have 1 to {0} bytes, as in `pieces=1..{0}`",
                                           spec::ble_piece_bytes));
+    return {};
+  }
+  if (name == "links=") {
+    const auto links = parse_number<std::size_t>(value);
+    if (!links || *links == 0)
+      return wrong_word(item, "an adapter holds a number of links, as in `links=7`");
+    plan.links = *links;
     return {};
   }
   if (name == "late=" || name == "interval=") {

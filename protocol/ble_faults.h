@@ -16,10 +16,11 @@ namespace orb::protocol {
 struct BleFaultPlan {
   std::size_t pieces_least = spec::ble_piece_bytes; ///< bytes of a notification, drawn
   std::size_t pieces_most = spec::ble_piece_bytes;
-  Duration late{};     ///< before the services are known after a connection
-  Duration interval{}; ///< before a written piece is acknowledged
-  double lose = 0;     ///< the share of notifications that are lost
-  double refuse = 0;   ///< … of written pieces that are not acknowledged; every other one arrives
+  std::size_t links = 0; ///< how many robots the adapter holds; 0 for any number
+  Duration late{};       ///< before the services are known after a connection
+  Duration interval{};   ///< before a written piece is acknowledged
+  double lose = 0;       ///< the share of notifications that are lost
+  double refuse = 0; ///< … of written pieces that are not acknowledged; every other one arrives
   std::optional<BleStep> drop;      ///< the link is lost in this step, every time
   std::optional<BleStep> drop_once; ///< … the first time
   std::optional<BleStep> balk;      ///< this step fails every time, and the link stays

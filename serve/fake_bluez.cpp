@@ -88,6 +88,8 @@ public:
   /// How strongly a robot is received.
   std::int16_t strength(const Robot& robot) const;
   bool listens() const { return !listeners_.empty(); }
+  /// Whether the adapter holds one more robot.
+  bool has_link() const;
 
   asio::io_context& io() { return io_; }
   const protocol::BleFaultPlan& plan() const { return plan_; }
@@ -155,6 +157,7 @@ public:
   void fade();
   void forget(const std::string& client);
   void unpublish();
+  bool connected() const { return connected_; }
 
 private:
   struct Characteristic {
@@ -305,6 +308,12 @@ void Computer::after(Duration time, std::function<void()> act) {
 std::int16_t Computer::strength(const Robot& robot) const {
   const auto at = std::ranges::find(robots_, &robot) - robots_.begin();
   return static_cast<std::int16_t>(strongest - farther * at);
+}
+
+bool Computer::has_link() const {
+  const auto taken =
+      std::ranges::count_if(robots_, [](const Robot* robot) { return robot->connected(); });
+  return plan_.links == 0 || static_cast<std::size_t>(taken) < plan_.links;
 }
 
 void Computer::start_discovery(const std::string& client) {
@@ -527,7 +536,7 @@ void Robot::connect(Result&& result) {
     return;
   if (connected_)
     return result.returnResults();
-  if (balks(BleStep::Connect))
+  if (balks(BleStep::Connect) || !computer_.has_link())
     return result.returnError(bluez_error("Failed", "le-connection-abort-by-local"));
   std::array<int, 2> ends{};
   if (!door_->admits() ||

@@ -80,6 +80,10 @@ inline constexpr auto ble_greeting = std::to_array<BleGreetingInfo>({
 #include "spec/ble.def"
 });
 
+/// How many robots an adapter is connected to at once.
+#define BLE_LINKS(name, links, source, summary) inline constexpr int name = links; ///< summary
+#include "spec/ble.def"
+
 enum class BleModel : std::uint8_t {
 #define BLE_NAME(enumerator, prefix, protocol, robot, source) enumerator,
 #include "spec/ble.def"

@@ -7,11 +7,12 @@
 #include "disk/disk.h"
 
 #include <algorithm>
-#include <atomic>
 #include <chrono>
+#include <condition_variable>
 #include <exception>
 #include <filesystem>
 #include <fmt/format.h>
+#include <mutex>
 #include <thread>
 
 namespace orb::cli {
@@ -62,6 +63,16 @@ bool is_worth_a_try(ExitCode exit, TryAgain again) {
          (again == TryAgain::Lost && (exit == ExitCode::LinkLost || exit == ExitCode::Unknown));
 }
 
+/// Which of the robots share the Bluetooth adapter.
+std::vector<bool> over_ble(const Roster& roster) {
+  std::vector<bool> over;
+  for (const auto& member : roster.members) {
+    const auto endpoint = find_endpoint(roster.config, member.port);
+    over.push_back(endpoint && endpoint->scheme == uploader::Scheme::Ble);
+  }
+  return over;
+}
+
 /// Waits, unless the user asks to stop.
 void wait_before_try() {
   for (const auto until = Clock::now() + pause_before_try;
@@ -75,10 +86,12 @@ public:
   Crew(const Context& context, const Roster& roster, int tries, const ManyOptions& options,
        const Work& work)
       : roster_(roster), tries_(tries), options_(options), work_(work),
-        board_(context, roster.members), outcomes_(roster.members.size()) {
+        board_(context, roster.members), outcomes_(roster.members.size()),
+        over_ble_(over_ble(roster)), begun_(roster.members.size()) {
     context_ = context;
     context_.config = roster.config;
     context_.color = "never"; // what is caught here is drawn elsewhere
+    context_.quiet = false;   // what the board does not show can be a verdict
   }
 
   std::vector<Outcome> run(std::size_t jobs) {
@@ -94,7 +107,8 @@ public:
 
 private:
   void take_turns() {
-    for (auto i = next_++; i < outcomes_.size() && InterruptGuard::asked() == 0; i = next_++) {
+    while (const auto turn = next()) {
+      const auto i = *turn;
       try {
         handle(i);
       } catch (...) { // nobody reads any more, or a bug: the others go on all the same
@@ -103,7 +117,35 @@ private:
         outcomes_[i].verdict = "given up";
         board_.show(i, "");
       }
+      if (over_ble_[i]) {
+        const std::lock_guard lock(mutex_);
+        --ble_links_;
+        freed_.notify_all();
+      }
     }
+  }
+
+  /// The first that has not begun, as soon as the adapter has a link for it; nothing when all have,
+  /// or the user asks to stop.
+  std::optional<std::size_t> next() {
+    std::unique_lock lock(mutex_);
+    while (InterruptGuard::asked() == 0) {
+      bool all_begun = true;
+      for (std::size_t i = 0; i < begun_.size(); ++i) {
+        if (begun_[i])
+          continue;
+        all_begun = false;
+        if (over_ble_[i] && ble_links_ == spec::ble_links_most)
+          continue;
+        begun_[i] = true;
+        ble_links_ += over_ble_[i] ? 1 : 0;
+        return i;
+      }
+      if (all_begun)
+        break;
+      freed_.wait_for(lock, notice);
+    }
+    return std::nullopt;
   }
 
   void handle(std::size_t i) {
@@ -134,7 +176,7 @@ private:
   void attempt(std::size_t i, Row& row) {
     auto& outcome = outcomes_[i];
     std::string error;
-    std::string last;  // of the lines that were shown
+    std::string last;  // of the lines that were shown, without its indent
     std::string fault; // of the program
     Lines out([&](std::string_view line) {
       if (options_.json || options_.prints == Prints::Answer)
@@ -143,10 +185,13 @@ private:
         board_.print(i, line);
     });
     Lines err([&](std::string_view line) {
-      if (line.starts_with(error_mark))
-        error = line.substr(error_mark.size());
-      else
-        board_.note(i, last = line);
+      if (line.starts_with(error_mark)) {
+        error += error.empty() ? "" : "; ";
+        error += line.substr(error_mark.size());
+      } else {
+        board_.note(i, line);
+        last = line.substr(std::min(line.find_first_not_of(' '), line.size()));
+      }
       if (fault.empty() && line.find(": error: ") != line.npos && line.front() != ' ')
         fault = line;
     });
@@ -167,7 +212,9 @@ private:
                       : !fault.empty()         ? fault
                       : !row.verdict().empty() ? row.verdict()
                       : !last.empty()          ? last
-                                               : "done";
+                      : outcome.exit == ExitCode::Done
+                          ? "done"
+                          : fmt::format("ended with exit code {}", static_cast<int>(outcome.exit));
     if (error.empty() && !outcome.out.empty() && !options_.json)
       take_answer(i);
   }
@@ -188,8 +235,11 @@ private:
   const Work& work_;
   Board board_;
   std::vector<Outcome> outcomes_;
-  std::atomic<std::size_t> next_ = 0;
-  std::mutex mutex_;
+  std::vector<bool> over_ble_;
+  std::mutex mutex_; ///< for what follows
+  std::vector<bool> begun_;
+  int ble_links_ = 0;
+  std::condition_variable freed_; ///< one of them
   std::exception_ptr broken_;
 };
 
@@ -262,7 +312,23 @@ ExitCode exit_of(const std::vector<Outcome>& outcomes) {
                                                                             : ExitCode::Done;
 }
 
+/// That more robots are to be connected to at once than an adapter holds.
+void say_who_waits(const Context& context, const Roster& roster, std::size_t jobs) {
+  const auto over = over_ble(roster);
+  const auto robots = static_cast<std::size_t>(std::count(over.begin(), over.end(), true));
+  constexpr std::size_t most = spec::ble_links_most;
+  if (std::min(robots, jobs) > most)
+    print_note(context,
+               fmt::format("over Bluetooth LE at most {} robots at a time: the other {} wait for "
+                           "their turn",
+                           most, robots - most));
+}
+
 } // namespace
+
+std::string links_at_once() {
+  return fmt::format("{}, which every Bluetooth adapter can handle", spec::ble_links_every);
+}
 
 void with_robots(Context& context, const RosterOptions& given, const ManyOptions& options,
                  const Work& work) {
@@ -280,10 +346,11 @@ void with_robots(Context& context, const RosterOptions& given, const ManyOptions
         return fail(context,
                     {ExitCode::Usage, fmt::format("{}`{}` {}", member.place, member.name, *why)});
   const InterruptGuard guard;
-  const auto jobs = given.jobs > 0 ? given.jobs : options.jobs;
-  const auto outcomes =
-      Crew(context, *roster, given.tries, options, work)
-          .run(jobs == all_at_once ? roster->members.size() : static_cast<std::size_t>(jobs));
+  const auto wanted = given.jobs > 0 ? given.jobs : options.jobs;
+  const auto jobs =
+      wanted == all_at_once ? roster->members.size() : static_cast<std::size_t>(wanted);
+  say_who_waits(context, *roster, jobs);
+  const auto outcomes = Crew(context, *roster, given.tries, options, work).run(jobs);
   if (options.json)
     print_document(*roster, outcomes, options.command);
   else

@@ -3,6 +3,7 @@
 #include "cli/context/context.h"
 #include "cli/many/board.h"
 #include "cli/many/roster.h"
+#include "spec/ble.h"
 
 #include <cstdint>
 #include <functional>
@@ -12,9 +13,8 @@
 
 namespace orb::cli {
 
-/// How many links a Bluetooth adapter holds, LIB: 4 to 7.
-inline constexpr int most_links = 4;
-inline constexpr auto links_at_once = "4, which every Bluetooth adapter can handle";
+/// The default of `--jobs` in words, where it is spec::ble_links_every.
+std::string links_at_once();
 
 inline constexpr int all_at_once = 0;
 
@@ -52,8 +52,9 @@ using Work = std::function<void(Context& context, const Member& robot, Row* row)
 
 /// Does `work` with each robot that the options name: with a single one as if there were no others,
 /// else with some at a time, each on a thread of its own with a context of its own, and tells what
-/// became of all in a table or in JSON. The failure of one changes nothing for the others; the code
-/// in the context is then 5. Ctrl-C ends each as it ends a single one, and begins no more.
+/// became of all in a table or in JSON. Over Bluetooth LE never more than spec::ble_links_most at a
+/// time: the others wait, which is said. The failure of one changes nothing for the others; the
+/// code in the context is then 5. Ctrl-C ends each as it ends a single one, and begins no more.
 void with_robots(Context& context, const RosterOptions& roster, const ManyOptions& options,
                  const Work& work);
 

@@ -265,7 +265,7 @@ void add_exec(const Command& orb, Context& context) {
   command.add_option("NAME", options->name, "the command, as `orb spec api-commands` lists it")
       .required();
   command.add_option("ARGS", options->arguments, "its operands");
-  add_roster_options(command, options->roster, links_at_once);
+  add_roster_options(command, options->roster, links_at_once());
   add_link_options(command, options->port);
   add_robot_option(command, options->robot);
   add_format_option(command, options->format);
@@ -273,7 +273,7 @@ void add_exec(const Command& orb, Context& context) {
   command.callback([&context, options] {
     ManyOptions many;
     many.command = "exec";
-    many.jobs = most_links;
+    many.jobs = spec::ble_links_every;
     many.prints = Prints::Answer;
     many.json = options->format == "json";
     many.check = [options]() -> tl::expected<void, Failure> {

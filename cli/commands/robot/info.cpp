@@ -297,14 +297,14 @@ void add_info(const Command& orb, Context& context) {
     std::string format = "text";
   };
   auto options = std::make_shared<Options>();
-  add_roster_options(command, options->roster, links_at_once);
+  add_roster_options(command, options->roster, links_at_once());
   add_link_options(command, options->port);
   add_robot_option(command, options->robot);
   add_format_option(command, options->format);
   command.callback([&context, options] {
     ManyOptions many;
     many.command = "info";
-    many.jobs = most_links;
+    many.jobs = spec::ble_links_every;
     many.again = TryAgain::Lost;
     many.prints = Prints::Answer;
     many.json = options->format == "json";

@@ -257,7 +257,7 @@ void upload(Context& context, UploadOptions& options) {
     return dry_run(context, options, *delivery);
   ManyOptions many;
   many.command = "upload";
-  many.jobs = most_links;
+  many.jobs = spec::ble_links_every;
   many.again = TryAgain::Lost;
   many.json = many.one_too = options.format == "json";
   many.check = [&]() -> tl::expected<void, Failure> {
@@ -289,7 +289,7 @@ void add_upload(const Command& orb, Context& context) {
   command.add_option("FILE", options->files, "sources or built macros; macros are sent first")
       .required();
   add_language_option(command, options->lang);
-  add_roster_options(command, options->roster, links_at_once);
+  add_roster_options(command, options->roster, links_at_once());
   add_link_options(command, options->port);
   add_format_option(command, options->format);
   add_target_options(command, options->target);
