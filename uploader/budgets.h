@@ -53,8 +53,10 @@ struct Budgets {
   Duration backoff_most = 2s;
   /// For the last messages of what was stopped; the ball's may be 20 ms after its answers.
   Duration settle = 50ms;
-  /// For a sign of life of a program whose start was not answered.
+  /// For a sign of life of a program that was started: a print or an error.
   Duration start_sign = 1s;
+  /// For an error right behind its first print: over LE two messages take several receipts.
+  Duration start_error = 200ms;
   /// Between two offers of a chunk to a stream macro whose buffer is full.
   Duration stream_pause = 50ms;
   /// For room in the buffer of a stream macro. One command can play for 65 s.

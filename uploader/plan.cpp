@@ -232,6 +232,8 @@ Capabilities read_capabilities(ByteView record) {
   return {.ram_bytes = spec::ram_bytes_of(api),
           .flash_bytes = static_cast<std::size_t>(spec::value_of(Limit::FlashBytes)),
           .has_basic = orbbasic != 0,
+          .language = spec::language_of(orbbasic, api),
+          .macro_executive = field(spec::version_macro_at),
           .can_commit = api >= spec::info(ApiCommand::CommitRamToFlash).since,
           .in_bootloader = field(spec::version_firmware_at) == 0 &&
                            field(spec::version_firmware_at + 1) == 0 && orbbasic == 0 &&

@@ -2,6 +2,7 @@
 
 #include "protocol/macro.h"
 #include "protocol/packet.h"
+#include "spec/basic.h"
 #include "uploader/budgets.h"
 
 #include <optional>
@@ -18,8 +19,10 @@ struct Capabilities {
   std::size_t ram_bytes = 0; ///< of the orbBasic RAM area, the final NUL included
   std::size_t flash_bytes = 0;
   bool has_basic = false;
-  bool can_commit = false;    ///< Commit RAM Program to Flash exists (API 1.47)
-  bool in_bootloader = false; ///< it has no firmware, or does not run it: nothing else works
+  spec::BasicVersion language{};    ///< of its orbBasic, where it has one
+  std::uint8_t macro_executive = 0; ///< its version, as in spec/macro.def; 0: not told
+  bool can_commit = false;          ///< Commit RAM Program to Flash exists (API 1.47)
+  bool in_bootloader = false;       ///< it has no firmware, or does not run it: nothing else works
 };
 
 /// Reads an answer of Get Versioning. A record of 8 bytes is from before API 1.46, unless its

@@ -1,5 +1,7 @@
 #include "uploader/upload_run.h"
 
+#include "spec/firmware.h"
+
 #include <cmath>
 #include <fmt/format.h>
 
@@ -95,6 +97,19 @@ ExitCode exit_code(Report::Kind kind) {
 
 std::uint8_t Greeting::power_state() const {
   return power && power->size() > power_state_at ? (*power)[power_state_at] : std::uint8_t{0};
+}
+
+std::string describe_firmware(const Greeting& greeting) {
+  const auto field = [&](std::size_t at) {
+    return at < greeting.versions.size() ? greeting.versions[at] : std::uint8_t{0};
+  };
+  constexpr unsigned nibble = 16;
+  const auto basic = field(spec::version_orbbasic_at);
+  return fmt::format("firmware {}.{}, {}, macro executive {}", field(spec::version_firmware_at),
+                     field(spec::version_firmware_at + 1),
+                     basic == 0 ? std::string("no orbBasic")
+                                : fmt::format("orbBasic {}.{}", basic / nibble, basic % nibble),
+                     field(spec::version_macro_at));
 }
 
 std::string_view to_string(Stage stage) {
@@ -210,6 +225,36 @@ Report commit(Session& session, const Greeting& greeting, BatteryPolicy battery)
   return Upload(session, plan, nobody).run("the program in RAM is now in flash");
 }
 
+namespace {
+
+/// What can be seen to go wrong with any of it before anything is sent.
+std::optional<Report> foresee(const Session& session, const Delivery& delivery,
+                              const Greeting& greeting, BatteryPolicy battery) {
+  const auto impossible = [](const std::string& name, const std::string& why) {
+    return Report{Report::Kind::Impossible, Content::Unchanged,
+                  name.empty() ? why : fmt::format("{}: {}", name, why), 0};
+  };
+  const auto named = [&](const std::string& name) {
+    return delivery.macros.size() + (delivery.program ? 1 : 0) > 1 ? name : std::string();
+  };
+  for (const auto& macro : delivery.macros)
+    if (const auto plan = make_plan(macro.job, session.budgets()); !plan)
+      return impossible(named(macro.name), plan.error().message);
+  if (const auto& job = delivery.program) {
+    if (const auto plan = make_plan(*job, greeting.firmware, session.budgets()); !plan)
+      return impossible(named(delivery.program_name), plan.error().message);
+    if (job->area == Area::Flash)
+      if (auto low = check_battery(greeting, battery))
+        return low;
+  }
+  if (delivery.misfit)
+    if (const auto why = delivery.misfit(greeting))
+      return impossible({}, *why);
+  return std::nullopt;
+}
+
+} // namespace
+
 Report deliver(Session& session, const Delivery& delivery, BatteryPolicy battery,
                Progress& progress) {
   const auto greeting = greet(session);
@@ -217,6 +262,8 @@ Report deliver(Session& session, const Delivery& delivery, BatteryPolicy battery
     return greeting.error();
   if (auto refused = refuse_bootloader(*greeting, delivery.port))
     return *refused;
+  if (auto trouble = foresee(session, delivery, *greeting, battery))
+    return *trouble;
   Report report;
   std::string stored;
   const auto several = delivery.macros.size() + (delivery.program ? 1 : 0) > 1;

@@ -4,6 +4,7 @@
 #include "uploader/plan.h"
 #include "uploader/session.h"
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -101,6 +102,9 @@ public:
 /// Whether a nearly empty battery stops what writes to flash.
 enum class BatteryPolicy : std::uint8_t { Refuse, Ignore };
 
+/// `firmware 0.98, orbBasic 0.9, macro executive 2`
+std::string describe_firmware(const Greeting& greeting);
+
 /// Waits for stray bytes, pings until there is an answer, asks for versions and power.
 tl::expected<Greeting, Report> greet(Session& session);
 
@@ -129,12 +133,22 @@ struct Delivery {
   std::string program_name;
   std::optional<ProgramJob> program;
   std::string port = "…"; ///< as the user names it, for messages
+  /// Why a ball that has told what it is should not get it: a sentence. Nothing is changed then.
+  std::function<std::optional<std::string>(const Greeting&)> misfit = {};
 };
 
-/// Greets the ball and uploads all of it, up to the first that is not Done. Where there are
-/// several, the message says which one it speaks of.
+/// Greets the ball and uploads all of it, up to the first that is not Done. What can be seen
+/// beforehand to go wrong is refused before anything is sent. Where there are several, the message
+/// says which one it speaks of.
 Report deliver(Session& session, const Delivery& delivery, BatteryPolicy battery,
                Progress& progress);
+
+/// Waits for what a program says that was started: an error, or a print and whatever comes just
+/// behind it; at most Budgets::start_sign. The messages stay in the inbox.
+tl::expected<void, NoAnswer> await_start(Session& session);
+
+/// Stops the wheels, whatever drove them. A program that stops with an error leaves them turning.
+tl::expected<void, NoAnswer> brake(Session& session);
 
 /// Stops what runs and commits the program in RAM to flash.
 Report commit(Session& session, const Greeting& greeting, BatteryPolicy battery);

@@ -75,14 +75,44 @@ send_once(Session& session, ApiCommand command, Duplicates duplicates, const Mak
   return std::nullopt;
 }
 
+bool is(const protocol::Async& message, spec::AsyncId id) {
+  return message.id == static_cast<std::uint8_t>(id);
+}
+
+bool is_error(const protocol::Async& message) {
+  return is(message, spec::AsyncId::BasicError);
+}
+
 /// Whether a message shows that a program runs, or ran until now.
 bool is_sign_of_life(const protocol::Async& message) {
-  return message.id == static_cast<std::uint8_t>(spec::AsyncId::BasicPrint) ||
-         message.id == static_cast<std::uint8_t>(spec::AsyncId::BasicErrorText) ||
-         message.id == static_cast<std::uint8_t>(spec::AsyncId::BasicError);
+  return is_error(message) || is(message, spec::AsyncId::BasicPrint) ||
+         is(message, spec::AsyncId::BasicErrorText);
 }
 
 } // namespace
+
+tl::expected<void, NoAnswer> await_start(Session& session) {
+  const auto& inbox = session.inbox();
+  const auto any = [&](bool (*fits)(const protocol::Async&)) {
+    return [&inbox, fits] { return std::any_of(inbox.begin(), inbox.end(), fits); };
+  };
+  const auto& budgets = session.budgets();
+  const auto heard = session.listen(session.now() + budgets.start_sign, any(is_sign_of_life));
+  if (!heard || !any(is_sign_of_life)())
+    return heard;
+  return session.listen(session.now() + budgets.start_error, any(is_error));
+}
+
+tl::expected<void, NoAnswer> brake(Session& session) {
+  const std::pair<ApiCommand, Bytes> steps[] = {
+      {ApiCommand::SetRawMotorValues, Bytes(4, 0)}, // switches stabilization off
+      {ApiCommand::SetStabilization, {1}},          // without which a roll is ignored
+      {ApiCommand::Roll, Bytes(4, 0)}};
+  for (const auto& [command, data] : steps)
+    if (const auto answer = session.ask(command, data); !answer)
+      return tl::unexpected(answer.error());
+  return {};
+}
 
 Upload::Upload(Session& session, const Plan& plan, Progress& progress)
     : session_(session), plan_(plan), progress_(progress) {
@@ -390,8 +420,7 @@ bool Upload::runs(const Step& step) {
     return status && is_ok(*status) && status->data.front() == step.data.front();
   }
   const auto& inbox = session_.inbox();
-  const auto sign = [&] { return std::any_of(inbox.begin(), inbox.end(), is_sign_of_life); };
-  return session_.listen(session_.now() + session_.budgets().start_sign, sign) && sign();
+  return await_start(session_) && std::any_of(inbox.begin(), inbox.end(), is_sign_of_life);
 }
 
 } // namespace orb::uploader

@@ -3,11 +3,13 @@
 #include "playground/engine/log_link.h"
 
 #include "run/delivery.h"
+#include "run/lacks.h"
 #include "spec/ble.h"
 #include "spec/robots.h"
 #include "spec/serial.h"
 #include "uploader/ble.h"
 
+#include <memory>
 #include <utility>
 
 namespace orb::playground {
@@ -104,9 +106,10 @@ Answer links(Request&) {
 }
 
 tl::expected<Upload, Problem> Upload::start(Request& request) {
-  const auto inputs = request.inputs();
-  if (!inputs)
-    return tl::unexpected(inputs.error());
+  auto read = request.inputs();
+  if (!read)
+    return tl::unexpected(read.error());
+  const auto inputs = std::make_shared<const std::vector<run::Input>>(*std::move(read));
   run::DeliveryOptions options;
   options.area = request.text("area", "ram") == "flash" ? spec::Area::Flash : spec::Area::Ram;
   options.run = request.flag("run");
@@ -115,6 +118,10 @@ tl::expected<Upload, Problem> Upload::start(Request& request) {
   auto delivery = run::arrange(*inputs, options);
   if (!delivery)
     return refuse(delivery.error());
+  delivery->misfit = [inputs](const uploader::Greeting& ball) -> std::optional<std::string> {
+    const auto lacks = run::lacks_of(*inputs, ball.firmware);
+    return lacks.empty() ? std::nullopt : std::optional(run::in_words(lacks, ball));
+  };
   Upload upload;
   upload.delivery_ = *std::move(delivery);
   upload.battery_ =

@@ -141,6 +141,7 @@ export function set_up_flash({ machine, workspace, ball, on_mistakes }) {
         if (!bytes.length) continue;
         const { prints, error } = await machine.call("hear_robot", { bytes });
         $("robot-prints").append(prints + error);
+        if (error && !mine.stopped) say(`The program stopped: ${error.trim()}.`, true);
         $("robot-prints").scrollTop = $("robot-prints").scrollHeight;
       }
     } catch (error) {
@@ -162,6 +163,7 @@ export function set_up_flash({ machine, workspace, ball, on_mistakes }) {
     try {
       const { bytes } = await machine.call("tell_robot", { ...held.asked, what, seq: held.seq });
       held.seq = (held.seq + 8) % 248;
+      held.stopped = what === "stop";
       await held.link.write(bytes);
       say(what === "run" ? "It is running." : "It is stopping.");
     } catch (error) {

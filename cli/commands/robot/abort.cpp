@@ -47,6 +47,7 @@ ExitCode abort_all(Context& context, uploader::Session& session,
     print_error(context, macro.error().message);
     return exit_code(macro.error().kind);
   }
+  const auto braked = uploader::brake(session);
   const auto line = stopped_line(session);
   const auto id = macro->data.front();
   const auto command = read_u16(macro->data, command_at);
@@ -60,14 +61,18 @@ ExitCode abort_all(Context& context, uploader::Session& session,
   print_note(context, line ? fmt::format("the program was stopped at line {}; {}", *line, of_macro)
                       : id != spec::macro_id_none ? of_macro + "; no program was running"
                                                   : "no program or macro was running");
-  return ExitCode::Done;
+  if (braked)
+    return ExitCode::Done;
+  print_error(context, "the ball may be rolling: it has not acknowledged a stop; abort again");
+  return ExitCode::LinkLost;
 }
 
 } // namespace
 
 void add_abort(const Command& orb, Context& context) {
-  const auto command = orb.add_command("abort", "stop the program and the macro running on a ball",
-                                       "orb abort --port /dev/rfcomm0\norb abort --port @red");
+  const auto command =
+      orb.add_command("abort", "stop the program and the macro running on a ball, and its wheels",
+                      "orb abort --port /dev/rfcomm0\norb abort --port @red");
   auto options = std::make_shared<PortOptions>();
   add_port_options(command, *options);
   command.callback([&context, options] {

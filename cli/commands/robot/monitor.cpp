@@ -17,6 +17,7 @@
 #include "spec/macro.h"
 #include "structured/text/words.h"
 
+#include <algorithm>
 #include <fmt/format.h>
 #include <memory>
 #include <optional>
@@ -134,10 +135,27 @@ void print_message(const Context& context, const Async& message, const Lookup& l
   print_out(words_of(message) + "\n");
 }
 
+/// `line 20: Divide by zero`, at its place where the source has no such lines.
+std::string fault_in_words(const run::LineMap& lines, const Reported& fault) {
+  const auto known = spec::find_error(fault.code);
+  const auto where = lines.words(fault.line);
+  return fmt::format(
+      "{}: {}",
+      where.empty() || lines.known != run::Known::FileAndColumn ? fmt::format("line {}", fault.line)
+                                                                : where,
+      known ? std::string(spec::info(*known).text) : fmt::format("error {:02X}h", fault.code));
+}
+
 } // namespace
 
 void print_fault(const Context& context, const run::ProgramError& fault) {
   print_err(run::render(fault, context.err_style()));
+}
+
+std::string robot_goes_on(const Link& link) {
+  return fmt::format("what runs on the ball goes on; `orb abort --port {0}` stops it, `orb monitor "
+                     "--port {0}` listens again",
+                     link.name);
 }
 
 Watched monitor(const Context& context, Link& link, uploader::Session& session,
@@ -160,7 +178,8 @@ Watched monitor(const Context& context, Link& link, uploader::Session& session,
       const auto why = heard.error().link.kind;
       watched.lost = why != LinkError::Kind::Interrupted && why != LinkError::Kind::Ended;
       if (watched.lost)
-        print_error(context, heard.error().link.message);
+        print_error(context,
+                    fmt::format("{}; {}", heard.error().link.message, robot_goes_on(link)));
       return watched;
     }
     if (resting && inbox.empty())
@@ -168,6 +187,31 @@ Watched monitor(const Context& context, Link& link, uploader::Session& session,
     if (spectator != nullptr && !spectator->goes_on())
       return watched;
   }
+}
+
+Began watch_start(const Context& context, const Link& link, uploader::Session& session,
+                  const Lookup& lookup) {
+  const auto heard = uploader::await_start(session);
+  const auto& inbox = session.inbox();
+  const auto found = std::find_if(inbox.begin(), inbox.end(),
+                                  [](const Async& one) { return fault_in(one).has_value(); });
+  if (found != inbox.end()) {
+    const auto fault = *fault_in(*found);
+    print_fault(context, lookup, fault);
+    const auto stopped =
+        fmt::format("the program stopped at {}", fault_in_words(lookup.lines, fault));
+    if (const auto still = uploader::brake(session); !still)
+      return {ExitCode::BadInput,
+              fmt::format("{}; the ball may be rolling: it has not acknowledged a stop", stopped)};
+    return {ExitCode::BadInput, stopped};
+  }
+  if (heard || heard.error().link.kind == LinkError::Kind::Ended)
+    return {ExitCode::Done, "started"};
+  if (heard.error().link.kind == LinkError::Kind::Interrupted)
+    return {ExitCode::Interrupted,
+            "interrupted; the program was started, and " + robot_goes_on(link)};
+  return {ExitCode::LinkLost, fmt::format("the program was started, then the link was lost: {}; {}",
+                                          heard.error().link.message, robot_goes_on(link))};
 }
 
 namespace {

@@ -15,6 +15,10 @@ struct Watched {
 /// Prints a fault of the robot to stderr: where it is, which value it was, the line to write.
 void print_fault(const Context& context, const run::ProgramError& fault);
 
+/// That what runs on a ball goes on without the link, and how to reach it: for the end of a
+/// message.
+std::string robot_goes_on(const Link& link);
+
 /// Where the faults of a program on a ball are looked up.
 struct Lookup {
   run::LineMap lines;
@@ -38,5 +42,16 @@ public:
 Watched monitor(const Context& context, Link& link, uploader::Session& session,
                 const Lookup& lookup, std::string_view format = "text",
                 Spectator* spectator = nullptr);
+
+/// How a program began.
+struct Began {
+  ExitCode exit = ExitCode::Done;
+  std::string words; ///< `started`, or why it does not run any more
+};
+
+/// Waits for the first print or error of a program that was just started, at most a second
+/// (Budgets::start_sign). A fault is printed as monitor() does, and the wheels are stopped.
+Began watch_start(const Context& context, const Link& link, uploader::Session& session,
+                  const Lookup& lookup);
 
 } // namespace orb::cli

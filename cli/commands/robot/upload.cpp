@@ -12,11 +12,13 @@
 #include "cli/terminal/interrupt.h"
 #include "cli/terminal/progress_bar.h"
 #include "run/delivery.h"
+#include "run/lacks.h"
 #include "run/tether/hail.h"
 #include "spec/limits.h"
 
 #include <fmt/format.h>
 #include <memory>
+#include <span>
 
 namespace orb::cli {
 namespace {
@@ -146,6 +148,20 @@ std::string uncounted_note(std::size_t pieces) {
       pieces == 1 ? "" : "s");
 }
 
+/// Why a ball with this firmware cannot run what it is to get; nothing where it can. One robot has
+/// all that it lacks printed, of several each has a sentence.
+std::optional<std::string> newer_than(const Context& context, std::span<const run::Input> inputs,
+                                      const uploader::Greeting& greeting, const Row* row) {
+  const auto lacks = run::lacks_of(inputs, greeting.firmware);
+  if (lacks.empty())
+    return std::nullopt;
+  for (const auto& lack : lacks)
+    if (row == nullptr && lack.source != nullptr)
+      print_finding(context, *lack.source, lack.finding);
+  return fmt::format("{}; write it without, or send it as it is with `--no-check`",
+                     run::in_words(lacks, greeting));
+}
+
 /// Tells how it ended, and watches what runs where that was asked for.
 ExitCode finish(const Context& context, const UploadOptions& options, Link& link,
                 uploader::Session& session, const Report& report, Duration took,
@@ -162,6 +178,17 @@ ExitCode finish(const Context& context, const UploadOptions& options, Link& link
   if (report.uncounted > 0 && link.may_double)
     print_note(context, uncounted_note(report.uncounted));
   auto exit = ExitCode::Done;
+  if (options.run && !options.monitor) {
+    // A macro says nothing when it fails.
+    const auto began = lookup.input != nullptr ? watch_start(context, link, session, lookup)
+                                               : Began{ExitCode::Done, "started"};
+    if (began.exit != ExitCode::Done)
+      return fail(context, began.exit, began.words);
+    if (row != nullptr)
+      row->set_verdict(fmt::format("{}; {}", done, began.words));
+    else
+      print_note(context, began.words);
+  }
   if (options.monitor) {
     const auto watched = monitor(context, link, session, lookup);
     exit = watched.faulted ? ExitCode::BadInput
@@ -271,6 +298,10 @@ void upload(Context& context, UploadOptions& options) {
     one.port = port_of(one.port, robot, row);
     auto own_delivery = *delivery;
     own_delivery.port = robot.port;
+    if (!options.no_check)
+      own_delivery.misfit = [&](const uploader::Greeting& greeting) {
+        return newer_than(own, *inputs, greeting, row);
+      };
     own.exit = send(own, one, own_delivery, lookup_of(*inputs), row);
   });
 }
@@ -301,7 +332,8 @@ void add_upload(const Command& orb, Context& context) {
             if (!line.empty())
               options->run_line = std::stoi(line);
           },
-          "run it; a program starts at its first line, or at LINE")
+          "run it, from its first line or from LINE, and tell after at most a second whether it "
+          "started or has stopped with an error")
       .value_optional()
       .type_name("LINE")
       .check([](const std::string& text) {

@@ -57,6 +57,20 @@ TEST(Plan, KnowsWhatAFirmwareHas) {
   EXPECT_FALSE(oldest.can_commit);
   EXPECT_TRUE(oldest.has_basic);
   EXPECT_FALSE(read_capabilities(Bytes{1, 0x1E, 1, 4, 0x3F, 0x48, 0, 6}).has_basic);
+  EXPECT_EQ(oldest.macro_executive, 2);
+}
+
+TEST(Plan, KnowsWhichOrbBasicABallSpeaks) {
+  const auto language = [](std::uint8_t orbbasic, std::uint8_t api_minor) {
+    return read_capabilities(Bytes{2, 2, 3, 3, 0x33, 0x21, orbbasic, 4, 1, api_minor}).language;
+  };
+  using enum spec::BasicVersion;
+  EXPECT_EQ(language(0x08, 10), V0_9) << "older than what is known";
+  EXPECT_EQ(language(0x14, 31), V1_3) << "a version of which nothing is known is the one before";
+  EXPECT_EQ(language(0x16, 46), V1_6);
+  EXPECT_EQ(language(0x16, 47), V1_7) << "its API is of May 2013";
+  EXPECT_EQ(language(0x19, 50), V1_9);
+  EXPECT_EQ(language(0x20, 50), V1_9) << "newer than what is known";
 }
 
 TEST(Plan, ChoosesTheSafeWayIntoFlash) {

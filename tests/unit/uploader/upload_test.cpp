@@ -300,6 +300,60 @@ TEST(Upload, NeverSendsAStartTwice) {
   EXPECT_EQ(ball.executed, 1);
 }
 
+TEST(Upload, RefusesAllOfADeliveryBeforeAnyOfItIsSent) {
+  const MacroJob macro{
+      {.id = 40, .flags = 1, .extended_flags = {}, .body = {0}}, MacroKind::User, false, false};
+  const auto changed_by = [&](const ProgramJob& job, int power, bool fits) {
+    ModelBall ball;
+    ball.power = power;
+    Session session(ball, Budgets{}, 0);
+    NullProgress progress;
+    Delivery delivery{{{"blink", macro}}, "big.bas", job};
+    if (!fits)
+      delivery.misfit = [](const Greeting&) { return std::string("it lacks a word"); };
+    const auto report = deliver(session, delivery, BatteryPolicy::Refuse, progress);
+    EXPECT_NE(report.kind, Kind::Done);
+    return !ball.macros.empty() || ball.areas[0] != "old\n";
+  };
+  EXPECT_FALSE(changed_by({Bytes(5000, ' '), Area::Ram, {}}, 2, true)) << "too large";
+  EXPECT_FALSE(changed_by({sixty_lines(), Area::Flash, {}}, 3, true)) << "battery low";
+  EXPECT_FALSE(changed_by({sixty_lines(), Area::Ram, {}}, 2, false));
+}
+
+/// What a program says, and how long await_start() then waits.
+Duration start_after(const std::vector<spec::AsyncId>& said, Duration latency) {
+  ModelBall ball;
+  ball.latency = latency;
+  Session session(ball, Budgets{}, 0);
+  for (const auto id : said)
+    ball.send(encode(protocol::Async{static_cast<std::uint8_t>(id), {0, 20, 0, 8}}));
+  const auto begin = session.now();
+  EXPECT_TRUE(await_start(session));
+  return session.now() - begin;
+}
+
+TEST(Upload, WaitsForTheFirstWordOfAProgramOrASecond) {
+  using enum spec::AsyncId;
+  EXPECT_EQ(start_after({}, {}), 1s);
+  EXPECT_EQ(start_after({SensorData}, {}), 1s);
+  EXPECT_EQ(start_after({BasicError}, 10ms), 20ms);
+  EXPECT_EQ(start_after({BasicPrint, BasicError}, 10ms), 20ms);
+  EXPECT_EQ(start_after({BasicPrint}, 10ms), 20ms + 200ms) << "an error may be behind it";
+}
+
+TEST(Upload, BrakesWhateverDroveTheWheels) {
+  ModelBall ball;
+  Session session(ball, Budgets{}, 0);
+  ASSERT_TRUE(brake(session));
+  protocol::Decoder decoder(protocol::Direction::ToBall);
+  decoder.feed(ball.received);
+  std::vector<std::string_view> names;
+  while (const auto item = decoder.next())
+    names.push_back(spec::find_command(item->did, item->cid)->name);
+  EXPECT_EQ(names,
+            (std::vector<std::string_view>{"set-raw-motor-values", "set-stabilization", "roll"}));
+}
+
 TEST(Upload, TellsWhatIsNoBall) {
   const auto report_of = [](const ModelBall::Mischief& mischief) {
     ModelBall ball;
