@@ -40,7 +40,7 @@ set(ORB_NOT_SHOWN "cli/commands/(completion|decode|disasm|encode|fmt|lift|man|sp
   structured/lift/ testing/judge testing/replay testing/results testing/run_ testing/sighting testing/verdicts/)
 # Joined by themselves: folders whose private names the rest of their room has too, and those that the demo leaves out.
 set(ORB_APART editor/dap editor/languages/basic editor/languages/macro editor/languages/structured editor/languages/test
-  editor/lsp run/calibrate structured/lift testing/text testing/verdicts vm/api vm/machine vm/macros vm/native)
+  editor/lsp editor/printed run/calibrate structured/lift testing/text testing/verdicts vm/api vm/machine vm/macros vm/native)
 
 # orb_join(<target>): with ORB_JOIN, the files of one room are compiled together, up to forty at a time. They see each
 # other's private names, so a room has no such name twice. A file with options of its own stays alone.

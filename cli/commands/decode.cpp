@@ -112,7 +112,7 @@ std::string_view kind_name(const protocol::ItemV2& item) {
   return "";
 }
 
-Json packet_json(const protocol::ItemV2& item, const std::string& when,
+Json logged_json(const protocol::ItemV2& item, const std::string& when,
                  protocol::DescriberV2& describer) {
   Json json;
   if (!when.empty())
@@ -143,7 +143,7 @@ void print_v2(const Input& input, bool as_json) {
   const auto print = [&](protocol::DecoderV2& decoder, const std::string& prefix) {
     while (const auto item = decoder.next())
       if (as_json)
-        print_json(packet_json(*item, when, describer));
+        print_json(logged_json(*item, when, describer));
       else
         print_out(fmt::format("{}{}\n", prefix, describer.describe(*item)));
   };
