@@ -49,7 +49,7 @@ bool is_safe(const Diagnostic& diagnostic) {
 }
 
 std::ptrdiff_t errors_in(const std::vector<Diagnostic>& findings) {
-  return std::count_if(findings.begin(), findings.end(), is_error);
+  return std::count_if(findings.begin(), findings.end(), keeps_from_building);
 }
 
 /// What two texts do not have in common, in the second.
@@ -75,11 +75,12 @@ std::map<const Rule*, int> more_errors(const std::vector<Diagnostic>& before,
                                        const std::vector<Diagnostic>& after, Span shown) {
   std::map<const Rule*, int> more;
   for (const auto& d : before)
-    more[d.rule] -= is_error(d) ? 1 : 0;
+    more[d.rule] -= keeps_from_building(d) ? 1 : 0;
   for (const auto& d : after)
-    more[d.rule] +=
-        is_error(d) && !is_safe(d) && (d.span.begin < shown.begin || d.span.begin > shown.end) ? 1
-                                                                                               : 0;
+    more[d.rule] += keeps_from_building(d) && !is_safe(d) &&
+                            (d.span.begin < shown.begin || d.span.begin > shown.end)
+                        ? 1
+                        : 0;
   return more;
 }
 

@@ -41,7 +41,7 @@ public:
   }
 
 private:
-  static constexpr std::uint32_t most_lines = 4000; ///< a few loops within loops
+  static constexpr std::uint32_t most_lines = 1500; ///< `for h = 0 to 360` and what is in it
 
   struct Loop {
     std::uint32_t letter = 0;

@@ -45,6 +45,8 @@ public:
     notes += fmt::format("{} {}:", now.time_since_epoch().count(), spec::info(statement).word);
     for (const auto argument : arguments)
       notes += fmt::format(" {}", argument);
+    if (statement == spec::Statement::Goroll && arguments.size() == 2)
+      notes += arguments[1] > 0 ? " 1" : " 0"; // what the third is then
     notes += '\n';
     return std::nullopt;
   }

@@ -75,12 +75,15 @@ void compare_text(const std::string& text, std::uint64_t seed) {
       ASSERT_NE(found.rule, &rules::MalformedLine);
       ASSERT_NE(found.rule, &rules::UnknownName);
     }
-  if (compiled.robot.lines.empty() || compiled.has_errors())
+  if (compiled.robot.lines.empty() || any_error(compiled.program.diagnostics))
     return;
 
   const auto checked = compiler::check(compiled.robot.text, target);
-  for (const auto& found : checked.diagnostics)
+  for (const auto& found : checked.diagnostics) {
+    if (is_error(found) && !keeps_from_building(found))
+      continue; // what stops the one for certain stops both
     ASSERT_TRUE(may_remain(found)) << found.rule->id << ": " << found.message;
+  }
 
   vm::NotebookHost plain_host;
   prepare(plain_host);
@@ -246,7 +249,7 @@ void compare_kept(std::uint64_t seed) {
   NoFiles files;
   const std::vector<std::string> kept{"alpha", "b", "count"};
   const auto compiled = compile("random.orb", "random.orb", text, {}, files, kept);
-  if (compiled.robot.lines.empty() || compiled.has_errors())
+  if (compiled.robot.lines.empty() || any_error(compiled.program.diagnostics))
     return;
   SCOPED_TRACE("seed " + std::to_string(seed) + ":\n" + text + "\n" + compiled.robot.text);
   vm::NotebookHost plain_host;

@@ -43,6 +43,8 @@ public:
     const bool sleeps = statement == spec::Statement::Sleep; // the line it wakes into has moved
     for (const auto argument : arguments.first(sleeps ? 2 : arguments.size()))
       event += " " + std::to_string(argument);
+    if (statement == spec::Statement::Goroll && arguments.size() == 2)
+      event += arguments[1] > 0 ? " 1" : " 0"; // what the third is then
     if (sleeps)
       end = "sleep";
     add(std::move(event));
