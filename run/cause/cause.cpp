@@ -119,6 +119,17 @@ private:
     return list;
   }
 
+  /// Whether something in an expression lets it be below 0; a letter alone rather grew too large.
+  bool may_be_negative(std::uint32_t root) const {
+    const auto begin = program_.nodes.begin();
+    return std::any_of(begin + program_.nodes[root].first, begin + root + 1, [](const auto& node) {
+      return node.kind == NodeKind::Negate ||
+             (node.kind == NodeKind::Binary &&
+              static_cast<spec::Operator>(node.what) == spec::Operator::Subtract) ||
+             (node.kind == NodeKind::System && spec::variables[node.what].least < 0);
+    });
+  }
+
   /// The expression that keeps a direction within one turn.
   std::string turned(const Suspect& suspect, bool negative) const {
     const auto& node = program_.nodes[suspect.root];
@@ -235,8 +246,9 @@ private:
       return cause;
     const auto& only = suspects.front();
     if (only.turns && !is_written_out(only) && !text(only.root).empty()) {
-      cause.seen += fmt::format("; use {}", turned(only, false));
-      cause.help = with(only, turned(only, false));
+      const auto within = turned(only, may_be_negative(only.root));
+      cause.seen += fmt::format("; use {}", within);
+      cause.help = with(only, within);
     } else {
       cause.help = remedy(only, std::nullopt);
     }
