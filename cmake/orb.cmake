@@ -27,7 +27,7 @@ set(headers_std <algorithm> <array> <charconv> <chrono> <cmath> <cstdint> <deque
 orb_precompiled(rooms LIBRARIES fmt::fmt HEADERS ${headers_std})
 orb_precompiled(json_rooms LIBRARIES fmt::fmt nlohmann_json::nlohmann_json HEADERS ${headers_std} <nlohmann/json.hpp>)
 
-option(ORB_JOIN "Compile the files of a room together: a third of the time from nothing" OFF)
+option(ORB_JOIN "Compile the files of a room together: sooner from nothing, later after an edit" OFF)
 if(ORB_JOIN AND CMAKE_CXX_COMPILER_ID STREQUAL GNU)
   # gcc tidies up its memory again and again from some 100 MB on, which takes a sixth of the time of long units.
   target_compile_options(orb_options INTERFACE --param=ggc-min-heapsize=500000)

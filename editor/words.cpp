@@ -119,20 +119,8 @@ bool is_open(const Source& source, const Token& text) {
 }
 
 bool directs_the_flow(const spec::StatementInfo& row) {
-  switch (row.form) {
-  case spec::Form::Conditional:
-  case spec::Form::Loop:
-  case spec::Form::LoopEnd:
-  case spec::Form::Branch:
-  case spec::Form::IndexedBranch: return true;
-  case spec::Form::Assignment:
-  case spec::Form::Output:
-  case spec::Form::Entry:
-  case spec::Form::Values:
-  case spec::Form::Variables:
-  case spec::Form::Arguments: break;
-  }
-  return row.statement == spec::Statement::Return || row.statement == spec::Statement::End;
+  return row.after == spec::After::Steers || row.after == spec::After::Jumps ||
+         row.statement == spec::Statement::Return || row.statement == spec::Statement::End;
 }
 
 Span with_closing(const Source& source, Span span) {

@@ -5,6 +5,7 @@
 #include "cli/input/inputs.h"
 #include "cli/model/checks.h"
 #include "cli/robot/ball_profile.h"
+#include "cli/run/run_console.h"
 #include "serve/server.h"
 
 #include "compiler/load.h"
@@ -58,15 +59,6 @@ Check speeds() {
         *speed, greatest_speed);
   };
   return check;
-}
-
-/// The trace's format; nothing where there is no trace.
-std::optional<report::TraceFormat> trace_format(const BallArguments& arguments) {
-  if (arguments.trace.empty() && arguments.trace_out.empty())
-    return std::nullopt;
-  const bool csv = arguments.trace == "csv" ||
-                   (arguments.trace.empty() && arguments.trace_out.ends_with(".csv"));
-  return csv ? report::TraceFormat::Csv : report::TraceFormat::Json;
 }
 
 /// `HOST:PORT`, `:PORT` or `[V6]:PORT`.
@@ -140,9 +132,10 @@ void run_ball(Context& context, const BallArguments& arguments) {
   if (!stimulus)
     return fail(context, stimulus.error());
   options.stimulus = *std::move(stimulus);
-  RecordOptions record_options{options.count,       options.robot,    trace_format(arguments),
-                               arguments.trace_out, arguments.report, std::nullopt,
-                               options.stimulus};
+  RecordOptions record_options{
+      options.count,       options.robot,    trace_format(arguments.trace, arguments.trace_out),
+      arguments.trace_out, arguments.report, std::nullopt,
+      options.stimulus};
   if (!arguments.course.empty()) {
     const auto course = read_course(context, arguments.course);
     if (!course)

@@ -23,6 +23,15 @@
 
 namespace orb::cli {
 
+/// What `--trace` and `--trace-out` ask for; nothing where there is to be no trace.
+inline std::optional<report::TraceFormat> trace_format(std::string_view format,
+                                                       std::string_view file) {
+  if (format.empty() && file.empty())
+    return std::nullopt;
+  const bool csv = format == "csv" || (format.empty() && has_ending(file, ".csv"));
+  return csv ? report::TraceFormat::Csv : report::TraceFormat::Json;
+}
+
 /// The command line of `orb run`.
 struct RunOptions {
   std::vector<std::string> files;
@@ -56,13 +65,7 @@ struct RunOptions {
   bool together = false; ///< each file is a ball of one room
   run::Options run;
 
-  /// The trace's format; nothing where there is no trace.
-  std::optional<report::TraceFormat> format() const {
-    if (trace.empty() && trace_out.empty())
-      return std::nullopt;
-    const bool csv = trace == "csv" || (trace.empty() && has_ending(trace_out, ".csv"));
-    return csv ? report::TraceFormat::Csv : report::TraceFormat::Json;
-  }
+  std::optional<report::TraceFormat> format() const { return trace_format(trace, trace_out); }
 };
 
 inline constexpr std::string_view from_stdin = "@stdin";

@@ -291,23 +291,8 @@ private:
 
   /// Whether the line below comes next, whatever happens.
   static bool goes_on(const StatementNode& statement) {
-    if (statement.error)
-      return false;
-    const auto& row = spec::info(statement.kind);
-    switch (row.form) {
-    case spec::Form::Loop:
-    case spec::Form::LoopEnd:
-    case spec::Form::Branch:
-    case spec::Form::IndexedBranch:
-    case spec::Form::Conditional: return false;
-    case spec::Form::Assignment:
-    case spec::Form::Output:
-    case spec::Form::Entry:
-    case spec::Form::Values:
-    case spec::Form::Variables:
-    case spec::Form::Arguments: break;
-    }
-    return row.after != spec::After::Ends;
+    const auto after = spec::info(statement.kind).after;
+    return !statement.error && (after == spec::After::Falls || after == spec::After::Waits);
   }
 
   std::optional<bool> truth(const IfView& condition) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/source.h"
 #include "spec/basic.h"
 
 #include <cstdint>
@@ -54,6 +55,11 @@ struct Said {
 /// Of a `for` that never moves on.
 inline Said step_of_zero() {
   return {"the step of the loop is 0", "write `step 1`, or `step -1` to count down"};
+}
+
+/// `step 0`, with its word: from behind the `end` of a loop to the end of its `step`.
+inline Span step_clause(std::string_view text, Span end, Span step) {
+  return {static_cast<std::uint32_t>(text.find_first_not_of(" \t", end.end)), step.end};
 }
 
 /// Of two comparisons with one answer, and what was likely meant.

@@ -282,19 +282,14 @@ void ValuesPass::check_let(const LetView& let) {
   }
 }
 
-/// `step 0`, with its word.
-Span ValuesPass::step_clause(const ForView& loop) const {
-  const auto begin = program_.text.find_first_not_of(" \t", loop.end.span.end);
-  return {static_cast<std::uint32_t>(begin), loop.step->span.end};
-}
-
 void ValuesPass::check_for(const ForView& loop) {
   const auto& variable = loop.variable;
   const auto start = range_of(loop.start);
   const auto end = range_of(loop.end);
   const auto step = loop.step != nullptr ? range_of(*loop.step) : Range::only(1);
   if (step == Range::only(0))
-    findings_.add(rules::ZeroStep, step_clause(loop), step_of_zero().message, step_of_zero().help);
+    findings_.add(rules::ZeroStep, step_clause(program_.text, loop.end.span, loop.step->span),
+                  step_of_zero().message, step_of_zero().help);
   const bool away = (step.lo > 0 && start.lo > end.hi) || (step.hi < 0 && start.hi < end.lo);
   if (away) {
     auto& d =

@@ -215,8 +215,6 @@ private:
 
   void check_let(const LetView& let);
 
-  Span step_clause(const ForView& loop) const;
-
   void check_for(const ForView& loop);
 
   /// A variable gets a value that is not known.

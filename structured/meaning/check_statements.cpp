@@ -171,13 +171,6 @@ std::uint32_t Checker::variable_of(const Statement& loop) const {
   return names_.of_node[item(loop, 0).value];
 }
 
-/// `step 0`, with its word.
-Span Checker::step_clause(const Statement& loop) const {
-  const auto begin =
-      std::string_view(program_.text).find_first_not_of(" \t", item(loop, 2).span.end);
-  return {static_cast<std::uint32_t>(begin), item(loop, 3).span.end};
-}
-
 void Checker::check_for(const Statement& statement) {
   const auto variable = variable_of(statement);
   const auto around = std::find_if(open_.rbegin(), open_.rend(), [&](std::uint32_t opener) {
@@ -194,7 +187,9 @@ void Checker::check_for(const Statement& statement) {
   if (size(statement) >= 4 && !require_constant(item(statement, 3)))
     return;
   if (size(statement) >= 4 && value_of(item(statement, 3))->value == 0)
-    report(compiler::rules::ZeroStep, step_clause(statement), compiler::step_of_zero());
+    report(compiler::rules::ZeroStep,
+           compiler::step_clause(program_.text, item(statement, 2).span, item(statement, 3).span),
+           compiler::step_of_zero());
   else if (size(statement) >= 3)
     check_direction(statement);
 }

@@ -138,8 +138,6 @@ private:
 
   std::uint32_t variable_of(const Statement& loop) const;
 
-  Span step_clause(const Statement& loop) const;
-
   void check_for(const Statement& statement);
 
   /// A loop of which nothing is ever done: its numbers lie the other way round.

@@ -217,14 +217,17 @@ bool follow_help() {
   return problems.empty();
 }
 
+void write_inputs(const Transcript& transcript, const fs::path& work) {
+  for (const auto& input : transcript.inputs)
+    files::write(work / input.name, content_of(input));
+}
+
 /// Follows what the commands of a transcript suggest, each where it has just run.
 bool follow_advice(const fs::path& path) {
-  const auto transcript = parse(files::read(path));
+  const auto text = files::read(path);
   const files::Scratch scratch;
   const files::Scratch logs;
   const auto work = settle(scratch.path());
-  for (const auto& input : transcript.inputs)
-    files::write(work / input.name, content_of(input));
   const advice::Run run_in = [&](const std::string& command, const fs::path& folder) {
     const auto ran = run(command, folder, logs.path());
     return advice::Ran{ran.out, ran.err, ran.exit};
@@ -235,11 +238,14 @@ bool follow_advice(const fs::path& path) {
       fmt::print("{}\n  $ {}\n    {}\n", path.string(), command, problem);
     good = good && problems.empty();
   };
-  if (path.extension() == ".md")
-    tell("", advice::problems_of_page(files::read(path), run_in));
+  if (path.extension() == ".md") {
+    tell("", advice::problems_of_page(text, run_in));
+    return good;
+  }
+  const auto transcript = parse(text);
+  write_inputs(transcript, work);
   for (const auto& step : transcript.steps)
-    if (path.extension() != ".md")
-      tell(step.command, advice::problems(step.command, run_in(step.command, work), work, run_in));
+    tell(step.command, advice::problems(step.command, run_in(step.command, work), work, run_in));
   return good;
 }
 
@@ -248,8 +254,7 @@ bool check_transcript(const fs::path& path, const Options& options) {
   const files::Scratch scratch;
   const files::Scratch logs;
   const auto work = settle(scratch.path());
-  for (const auto& input : expected.inputs)
-    files::write(work / input.name, content_of(input));
+  write_inputs(expected, work);
   if (expected.steps.empty()) {
     fmt::print("{}: holds no step; write a line `$ orb …`\n", path.string());
     return false;
