@@ -3,6 +3,7 @@
 #include "tests/golden/files.h"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <fmt/format.h>
 #include <map>
@@ -291,7 +292,10 @@ void try_line(const std::string& command, const std::vector<Finding>& all, const
         return one.rule == finding.rule && one.message == finding.message;
       });
     }
-    for (const auto place : {Place::Marked, Place::Word, Place::Line}) {
+    // A whole line most often replaces the line: what succeeds first saves the others.
+    const bool is_line = choice[0].find(' ') != std::string::npos;
+    for (const auto place : is_line ? std::array{Place::Line, Place::Marked, Place::Word}
+                                    : std::array{Place::Marked, Place::Word, Place::Line}) {
       const auto changed = with_offer(text, finding, offer->line, choice, place);
       if (good || !changed)
         continue;
