@@ -21,7 +21,7 @@ namespace {
 using structured::Kind;
 using structured::SymbolKind;
 
-enum class Context : std::uint8_t { Statement, Expression, Label, Block, Macro };
+enum class Context : std::uint8_t { Statement, Expression, Colour, Label, Block, Macro };
 
 Context context_after(const Source& source, const std::vector<Token>& before) {
   if (before.empty())
@@ -33,6 +33,8 @@ Context context_after(const Source& source, const std::vector<Token>& before) {
     return Context::Label;
   if (word.is(spec::Statement::Macrun))
     return Context::Macro;
+  if (word.is(spec::Statement::Rgb))
+    return Context::Colour;
   return before.size() == 1 && word.is(spec::Statement::End) ? Context::Block : Context::Expression;
 }
 
@@ -50,6 +52,11 @@ public:
       statements();
       words(reference::structured_words_section());
       settable();
+      return;
+    case Context::Colour:
+      for (const auto name : structured::colour_names())
+        out_.items.push_back({std::string(name), SuggestionKind::Value, "colour", ""});
+      suggest(Context::Expression);
       return;
     case Context::Expression:
       names({SymbolKind::Variable, SymbolKind::Local, SymbolKind::Parameter, SymbolKind::Array,

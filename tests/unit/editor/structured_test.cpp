@@ -114,6 +114,10 @@ TEST(Structured, CompletionKnowsWhatIsVisible) {
   StructuredSession comment("print 1 ' orb: allow \n");
   EXPECT_TRUE(comment.suggests(0, 21, "unused-name"));
   EXPECT_FALSE(comment.suggests(0, 12, "print"));
+  StructuredSession colours("RGB r\nprint r\n");
+  EXPECT_TRUE(colours.suggests(0, 5, "red"));
+  EXPECT_TRUE(colours.suggests(0, 5, "rnd"));
+  EXPECT_FALSE(colours.suggests(1, 7, "red"));
 }
 
 TEST(Structured, OutlineListsDeclarations) {
