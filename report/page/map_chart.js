@@ -101,7 +101,8 @@ export function measure(chart) {
   const width = Math.max(size.width, 50), height = Math.max(size.height, 50);
   const [above, below] = covered(chart.map, size), free = Math.max(height - above - below, 50);
   const wide = Math.max(area.box.right - area.box.left, 20), tall = Math.max(area.box.high - area.box.low, 20);
-  const fitting = Math.min((width - 96) / wide, (free - (above || below ? 48 : 84)) / tall);
+  const edges = Math.min(above || below ? 48 : 84, free * .35); // above and below what is drawn
+  const fitting = Math.min((width - 96) / wide, (free - edges) / tall);
   const scale = Math.max(fitting, .02) * view.zoom;
   const state = chart.one.state_at(playback.now);
   const [right, up] = view.follow ? place(state.x, state.y) : [area.box.middle_x + view.x, area.box.middle_y + view.y];
