@@ -1,15 +1,15 @@
 // The editor: CodeMirror, and the language server of `orb lsp` in a worker behind it.
 
-import { closeBrackets, closeBracketsKeymap } from "@codemirror/autocomplete";
 import { defaultKeymap, history, historyKeymap, isolateHistory, redo, undo } from "@codemirror/commands";
 import { bracketMatching } from "@codemirror/language";
 import { EditorView, Decoration, ViewPlugin, drawSelection, highlightActiveLine, highlightActiveLineGutter, highlightSpecialChars, keymap, lineNumbers } from "@codemirror/view";
 import { EditorState, StateEffect, StateField, Prec } from "@codemirror/state";
 import { setDiagnostics, lintGutter, nextDiagnostic } from "@codemirror/lint";
-import { LSPClient, LSPPlugin, serverCompletion, hoverTooltips, signatureHelp, formatDocument, formatKeymap,
+import { LSPClient, LSPPlugin, hoverTooltips, signatureHelp, formatDocument, formatKeymap,
   renameKeymap, jumpToDefinitionKeymap } from "@codemirror/lsp-client";
 import { harmless, t } from "./page/dom.js";
-import { limit_words, limits } from "./page/workspace.js";
+import { typing } from "./page/typing.js";
+import { ending_of, limit_words, limits } from "./page/workspace.js";
 
 const uri_of = name => "file:///" + encodeURIComponent(name);
 /** Longer texts are checked when the typing rests, so that it stays fluent. */
@@ -58,8 +58,8 @@ const running = StateField.define({
 
 /** What belongs to an editor; what needs a parser in the page, such as folding, is left out. */
 const basics = [
-  lineNumbers(), highlightActiveLineGutter(), highlightSpecialChars(), history(), drawSelection(), bracketMatching(), closeBrackets(),
-  highlightActiveLine(), keymap.of([...closeBracketsKeymap, ...defaultKeymap, ...historyKeymap]),
+  lineNumbers(), highlightActiveLineGutter(), highlightSpecialChars(), history(), drawSelection(), bracketMatching(),
+  highlightActiveLine(), keymap.of([...defaultKeymap, ...historyKeymap]),
 ];
 
 const severities = [, "error", "warning", "info", "hint"];
@@ -89,7 +89,7 @@ export function make_editor({ parent, nonce, language, files, on_change, on_find
       sanitizeHTML: harmless,
       timeout: 10_000,
       notificationHandlers: { "textDocument/publishDiagnostics": (_, params) => { show_findings(params); return true; } },
-      extensions: [serverCompletion(), hoverTooltips(), signatureHelp()],
+      extensions: [hoverTooltips(), signatureHelp()],
     });
     language.call("files", { files: files() }).catch(() => {});
     client.connect({ send, subscribe: listener => listeners.add(listener), unsubscribe: listener => listeners.delete(listener) });
@@ -124,7 +124,7 @@ export function make_editor({ parent, nonce, language, files, on_change, on_find
   });
 
   // -- findings and their fixes --
-  let findings = [];
+  let findings = [], say_findings = () => {};
   const place = (doc, { line, character }) => {
     if (line >= doc.lines) return doc.length;
     const there = doc.line(line + 1);
@@ -138,6 +138,7 @@ export function make_editor({ parent, nonce, language, files, on_change, on_find
     const put = actions => {
       if (LSPPlugin.get(view) !== plugin || plugin.syncedDoc !== doc) return;
       const map = position => plugin.unsyncedChanges.mapPos(place(doc, position));
+      say_findings = () => put(actions);
       findings = diagnostics.map(one => ({
         from: map(one.range.start), to: map(one.range.end), line: one.range.start.line + 1, severity: severities[one.severity ?? 1],
         message: one.message.split("\n").map(line => t(line)).join("\n"), source: String(one.code ?? ""), actions: actions.filter(action => belongs(action, one)).map(action => fix(action, uri)),
@@ -179,7 +180,7 @@ export function make_editor({ parent, nonce, language, files, on_change, on_find
     doc: text,
     extensions: [
       Prec.high(keymap.of([...formatKeymap, ...renameKeymap, ...jumpToDefinitionKeymap, { key: "Mod-.", run: fix_here }, { key: "F8", run: nextDiagnostic }])),
-      basics, lintGutter(), colors, running, short_enough, follow,
+      typing(ending_of(name)), basics, lintGutter(), colors, running, short_enough, follow,
       EditorView.lineWrapping, EditorView.cspNonce.of(nonce),
       EditorView.contentAttributes.of({ "aria-label": `Text of ${name}`, autocapitalize: "off", autocorrect: "off", spellcheck: "false" }),
       EditorView.updateListener.of(update => {
@@ -195,6 +196,7 @@ export function make_editor({ parent, nonce, language, files, on_change, on_find
     if (!states.has(name)) states.set(name, fresh(name, text));
     shown = name;
     findings = [];
+    say_findings = () => {};
     on_findings(name, null); // nobody knows yet
     language.call("files", { files: files() }).catch(() => {}); // what it includes, what it tests
     if (view) view.setState(states.get(name));
@@ -225,6 +227,8 @@ export function make_editor({ parent, nonce, language, files, on_change, on_find
       view.requestMeasure();
       if (line) this.go_to(line);
     },
+    /** The page is in another language. */
+    say_anew: () => say_findings(),
     focus: () => view.focus(),
     format: () => formatDocument(view),
     run_line(line) {

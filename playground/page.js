@@ -8,7 +8,7 @@ import { addresses_in, id_of, parts_of, show_class_buttons, show_own_task } from
 import { set_up_bubble } from "./page/bubble.js";
 import { set_up_blocks } from "./page/blocks/toggle.js";
 import { Verdicts } from "./page/verdicts.js";
-import { $, element, button, say, download, with_code, on_demand, show_trouble } from "./page/dom.js";
+import { $, announce, element, button, say, download, with_code, on_demand, show_trouble } from "./page/dom.js";
 import { watch_engines } from "./page/engines.js";
 import { speak } from "./page/language.js";
 import { as_workspace, lesson_after, load_library, mark_done, show_library, show_task } from "./page/library.js";
@@ -46,6 +46,7 @@ editor = make_editor({
     workspace.files[name] = text;
     if (name === workspace.active) blocks.changed(text);
     steps.changed();
+    verdicts.changed(workspace.files);
     keep_soon();
   },
   on_findings(name, list) {
@@ -105,22 +106,31 @@ function show_findings(list) {
     const [first, ...more] = one.message.split("\n");
     const item = element("li", { class: one.severity, "data-rule": one.source });
     item.append(button(`line ${one.line}`, () => blocks.go_to(one.line) || editor.select(one), { class: "link" }),
-      element("span", {}, element("span", { class: "severity" }, `${one.severity}: `), ...with_code(first), ...more.length ? [element("span", { class: "hint" }, " ", ...with_code(more.join(" ")))] : []));
+      element("span", {}, element("span", { class: "severity" }, `${one.severity}: `), with_code(first), ...more.length ? [element("span", { class: "hint" }, " ", with_code(more.join(" ")))] : []));
     for (const action of one.actions) item.append(button(action.name.replaceAll("`", ""), () => editor.apply(action), { class: "fix" }));
     return item;
   }));
   const count = severity => list.filter(one => one.severity === severity).length;
   const words = [["error", count("error")], ["warning", count("warning")]].filter(([, n]) => n).map(([word, n]) => `${n} ${word}${n > 1 ? "s" : ""}`);
-  $("count").textContent = words.join(", ") || "no mistakes found"; // which a screen reader says when it changes
+  $("count").textContent = words.join(", ") || "no mistakes found";
   $("count").className = count("error") ? "bad" : "";
+  tell_count();
+}
+let telling = 0, told_count = "";
+/** A screen reader says it when the typing rests, and only where it is another. */
+function tell_count() {
+  clearTimeout(telling);
+  telling = setTimeout(() => {
+    const words = $("count").textContent;
+    if (words !== told_count) announce(words);
+    told_count = words;
+  }, 1500);
 }
 /** What a run was refused for may stand in a file that is not shown. */
 function show_mistakes(document) {
-  const first = (document.findings ?? []).find(one => one.severity === "error") ?? document.findings?.[0];
-  const name = first?.file?.replace(/^\/+/, "");
-  if (!name || !Object.hasOwn(workspace.files, name)) return;
-  show_view("work");
-  go_to(name, first.line ?? first.range?.start?.line ?? 1);
+  const first = document.diagnostics.find(one => one.severity === "error") ?? document.diagnostics[0];
+  const name = first?.file.replace(/^\/+/, "");
+  if (name && Object.hasOwn(workspace.files, name)) go_to(name, first.line);
 }
 function go_to(name, line) {
   if (Object.hasOwn(workspace.files, name)) show_file(name);
@@ -189,17 +199,28 @@ function show_task_of(stays = false) {
 }
 /** What was open before, and the way back to it: also after the page was loaded again. */
 function show_came(words = "", more = []) {
-  $("came").hidden = !workspace.before && !more.length;
-  if ($("came").hidden) return;
-  const back = workspace.before ? [button("Back to what you had", go_back)] : [];
-  $("came").replaceChildren(element("span", {}, words || `This is “${workspace.title}”.`), ...more, ...back, button("OK", () => {
+  const whose = workspace.name ? `Handed in by ${workspace.name}.` : ""; // which stays when the rest is seen
+  const back = workspace.before ? [button("Back to what you had", go_back)] : [], buttons = [...more, ...back];
+  $("came").hidden = !whose && !buttons.length;
+  $("came").replaceChildren(element("span", {}, words || whose || `This is “${workspace.title}”.`), ...buttons, ...buttons.length ? [button("OK", () => {
     workspace.before = "";
     keep_soon();
-    $("came").hidden = true;
-  }));
+    show_came();
+  })] : []);
 }
-/** Something else comes: what was there stays as it is, in a place of its own. */
+/** Something else comes, and the browser's own Back leads to what was there. */
 function exchange(next, words, more = []) {
+  const other = next.document !== workspace.document;
+  change_to(next, words, more);
+  // An address that was opened has a step of its own already.
+  history[other && history.state ? "pushState" : "replaceState"]({ document: next.document }, "");
+}
+window.addEventListener("popstate", async ({ state }) => {
+  const next = state && state.document !== workspace.document && await document_of(state.document);
+  if (next) change_to({ ...next, before: "" }, `“${next.title}”, as you left it.`);
+});
+/** What was there stays as it is, in a place of its own. */
+function change_to(next, words, more = []) {
   if (workspace.document && Object.keys(workspace.files).length) {
     opened.set(workspace.document, structuredClone(workspace));
     mark_version();
@@ -341,9 +362,10 @@ async function take_address(hash) {
     return () => pick(item);
   }
   if (!hash.startsWith("#p=")) throw new AddressError(`The address ends in “${hash.slice(0, 30)}”, which this page does not understand.`);
-  const next = await from_fragment(hash);
+  const { workspace: next, all, left_out } = await from_fragment(hash);
   if (!next) throw new AddressError("The address is damaged: it contains no program that can be read.");
-  if (next.name) return () => exchange({ ...next, document: new_id(), title: `${next.name}: ${title_of(next)}` }, `What ${next.name} handed in is open.`);
+  if (left_out) say(`${left_out} of the ${all} files in the address are left out: at most ${limits.files} can be open, with names and sizes that the page knows.`, "bad");
+  if (next.name) return () => exchange({ ...next, document: new_id(), title: `${next.name}: ${title_of(next)}` }, "");
   if (!next.task) return () => exchange({ ...next, document: new_id() }, "A shared program is open.");
   return () => resume({ ...next, document: id_of(hash), title: title_of(next) }, `The lesson “${title_of(next)}”`);
 }
@@ -384,11 +406,16 @@ const verdicts = new Verdicts({ machine, ball, workspace: () => workspace, on_pl
     return next && (() => pick(next));
   } });
 const with_class = on_demand(async () => (await import("./page/class.js")).set_up_class({
-  machine, workspace: () => workspace, share, address_of,
-  on_change(name = workspace.active) {
+  machine, workspace: () => workspace, share, address_of, keep: keep_soon,
+  write_file(name, text) {
+    workspace.files[name] = text;
+    editor.forget(name);
+    keep_soon();
+  },
+  on_change() {
     if (workspace.task) workspace.title = title_of(workspace);
     workspace.document ||= new_id();
-    show_file(name);
+    show_file(workspace.active);
     show_task_of();
   },
 }));
@@ -454,15 +481,30 @@ document.addEventListener("keydown", event => {
 
 // ---- begin ----
 async function begin() {
-  await speak();
+  await speak({ on_change() {
+    editor.say_anew();
+    blocks.say_anew();
+    world.show();
+    show_task_of();
+  } });
   const found = kept();
   if (found) workspace = { ...found, document: found.document || new_id() };
   if (!await open_address()) {
     open_workspace(found ? workspace : { ...checked({ files: { "welcome.orb": welcome }, active: "welcome.orb" }), document: "welcome", title: "First steps" });
     stop_keeping(); // nothing was written in it yet, but perhaps in another tab
+    history.replaceState({ document: workspace.document }, "");
   }
 }
 const begun = begin();
 // For whoever measures.
 machine.on("ready", () => begun.then(() => { document.documentElement.dataset.ready ??= Math.round(performance.now()); }));
-if ("serviceWorker" in navigator && location.protocol.startsWith("http")) navigator.serviceWorker.register("sw.js").catch(() => {});
+
+// ---- without a network ----
+const rests_after = 8000; // milliseconds from the first look at the page
+async function keep_page() {
+  await navigator.serviceWorker.register("sw.js");
+  const { active } = await navigator.serviceWorker.ready;
+  await new Promise(done => setTimeout(done, rests_after));
+  if (!navigator.connection?.saveData) active.postMessage(performance.getEntriesByType("resource").map(({ name }) => name));
+}
+if ("serviceWorker" in navigator && location.protocol.startsWith("http")) keep_page().catch(() => {});

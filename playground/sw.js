@@ -1,9 +1,10 @@
 // Keeps the playground on this device, so that it works without a network. The build puts in the names
 // of the files and a hash of all that is in them: another build has another cache. What is loaded on demand
-// is kept once it was.
+// is kept once it was; `soon` is that part of it which works without being seen, and is kept when the page rests.
 const cache_name = "orb-playground-/*{hash}*/";
 const core = /*{core}*/[];
 const on_demand = /*{on_demand}*/[];
+const soon = /*{soon}*/[];
 
 self.addEventListener("install", event =>
   event.waitUntil(caches.open(cache_name).then(cache => cache.addAll(core.map(url => new Request(url, { cache: "no-cache" }))))));
@@ -14,6 +15,17 @@ self.addEventListener("activate", event => event.waitUntil((async () => {
   await self.clients.claim();
 })()));
 
+/** What the page has loaded before this worker took over, and what it may want without a network. */
+async function keep(loaded) {
+  const cache = await caches.open(cache_name), { scope } = self.registration;
+  const names = loaded.map(url => url.slice(scope.length)).filter(name => on_demand.includes(name));
+  for (const name of new Set([...names, ...soon]))
+    if (!await cache.match(scope + name)) await cache.add(scope + name).catch(() => {}); // the next visit tries again
+}
+self.addEventListener("message", event => event.waitUntil(keep(event.data)));
+
+const lacks = new Response(`<!doctype html><meta charset="utf-8"><title>orb</title><p>This page is not on this device yet: connect to the network once. <a href="${self.registration.scope}">Back to the playground</a>`,
+  { status: 503, headers: { "content-type": "text/html; charset=utf-8" } });
 async function answer(request) {
   const cache = await caches.open(cache_name);
   const url = new URL(request.url);
@@ -21,7 +33,10 @@ async function answer(request) {
   if (url.pathname.endsWith("/")) url.pathname += "index.html";
   const held = await cache.match(url.href);
   if (held) return held;
-  const fetched = await fetch(request);
+  const fetched = await fetch(request).catch(error => {
+    if (request.mode === "navigate") return lacks.clone();
+    throw error;
+  });
   const name = url.href.slice(self.registration.scope.length);
   if (fetched.ok && (name.startsWith("docs/") || on_demand.includes(name))) await cache.put(url.href, fetched.clone());
   return fetched;

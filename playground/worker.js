@@ -5,13 +5,18 @@ import { OrbError } from "./error.js";
 import { instance_in_parts } from "./split/parts.js";
 
 const frame_ms = 33;
+class Missing extends Error {}
 /** The bytes of what few visits need, in a file whose name the build knows: a call is waiting for them. */
 function rest_of_wasm() {
   const request = new XMLHttpRequest();
   request.open("GET", new URL(ORB_REST, import.meta.url), false);
   request.responseType = "arraybuffer";
-  request.send();
-  if (request.status !== 200) throw new Error(`a part of orb could not be loaded (${request.status})`);
+  try {
+    request.send();
+  } catch {
+    throw new Missing("a part of it is not on this device yet: connect to the network once");
+  }
+  if (request.status !== 200) throw new Missing(`a part of it could not be loaded (${request.status})`);
   return request.response;
 }
 
@@ -81,7 +86,7 @@ function answer({ id, method, params = {} }) {
     postMessage({ id, result });
   } catch (error) {
     // Not an answer of orb: after that nothing in its memory can be relied on.
-    if (!(error instanceof OrbError)) post("broken", { message: `${method}: ${error.message}` });
+    if (!(error instanceof OrbError)) post("broken", { message: error instanceof Missing ? error.message : `${method}: ${error.message}` });
     postMessage({ id, error: { code: error.code ?? 70, message: error.message, findings: error.findings } });
   }
 }

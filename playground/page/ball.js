@@ -50,7 +50,7 @@ export class Ball {
     $("player").classList.toggle("is-live", what === "live");
   }
   say(words, bad = false, more = []) {
-    $("outcome").replaceChildren(...words ? [element("p", {}, ...with_code(words))] : [], ...more);
+    $("outcome").replaceChildren(...words ? [element("p", {}, with_code(words))] : [], ...more);
     $("outcome").className = bad ? "bad" : "";
   }
   /** Nothing has run yet: the ball rests in the middle. */
@@ -160,8 +160,8 @@ export class Ball {
     const { file, line, message, seen, variables, finding, help } = fault;
     const details = seen ? variables : finding;
     this.say("", true, [
-      element("p", {}, ...with_code(`${words}: ${message}${seen ? `: ${seen}` : ""} `), line ? button(`line ${line}`, () => this.on_place(file, line), { class: "link" }) : ""),
-      ...[details, help].filter(Boolean).map(text => element("p", { class: "hint" }, ...with_code(text))),
+      element("p", {}, with_code(`${words}: ${message}${seen ? `: ${seen}` : ""} `), line ? button(`line ${line}`, () => this.on_place(file, line), { class: "link" }) : ""),
+      ...[details, help].filter(Boolean).map(text => element("p", { class: "hint" }, with_code(text))),
     ]);
   }
   end(answer) {

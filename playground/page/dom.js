@@ -17,8 +17,14 @@ export function element(name, attributes = {}, ...children) {
 }
 export const button = (words, on_click, attributes = {}) => element("button", { type: "button", onclick: on_click, ...attributes }, words);
 
-/** What stands between backticks becomes code; all of it stays text. */
-export const with_code = text => t(text).split(/`([^`\n]+)`/).map((part, i) => i % 2 ? element("code", {}, part) : part);
+/** What stands between backticks becomes code; all of it stays text. It is said anew when the page changes its language. */
+export function with_code(text) {
+  const made = element("span", { "data-said": text });
+  fill_said(made);
+  return made;
+}
+const fill_said = made => made.replaceChildren(...t(made.dataset.said).split(/`([^`\n]+)`/).map((part, i) => i % 2 ? element("code", {}, part) : part));
+export const say_anew = () => { for (const made of document.querySelectorAll("[data-said]")) fill_said(made); };
 
 /** Says it in the line at the foot of the program, and to screen readers. */
 export function say(words, look = "") {

@@ -7,18 +7,27 @@ const key = "orb-language";
 const remembered = () => { try { return localStorage.getItem(key); } catch { return null; } };
 const wanted = () => [remembered(), ...navigator.languages.map(tag => tag.split("-")[0])].find(code => Object.hasOwn(languages, code ?? "")) ?? "en";
 
-/** Settles when the page is in that language. */
-export async function speak() {
+
+/** Says the page in that language; where its texts cannot be loaded, it stays as it is. */
+async function show_in(code) {
+  try {
+    const { translate } = await import("./translate.js");
+    await translate(code, code === "en" ? "" : `languages/${code}.json`);
+  } catch {
+    say(`${languages[code]} could not be loaded. Check your network connection, then choose it again under Menu.`, "bad");
+    $("language").value = document.documentElement.lang;
+  }
+}
+
+/** Settles when the page is in that language. `on_change()`: somebody has chosen another. */
+export async function speak({ on_change }) {
   const code = wanted();
   $("language").append(...Object.entries(languages).map(([one, name]) => element("option", { value: one, lang: one, selected: one === code }, name)));
-  $("language").addEventListener("change", () => {
-    try { localStorage.setItem(key, $("language").value); } catch { /* then it is asked for each time */ }
-    location.reload();
+  $("language").addEventListener("change", async () => {
+    const chosen = $("language").value;
+    try { localStorage.setItem(key, chosen); } catch { /* then it is asked for each time */ }
+    await show_in(chosen);
+    on_change();
   });
-  if (code === "en") return;
-  try {
-    await (await import("./translate.js")).translate(code, `languages/${code}.json`);
-  } catch {
-    say(`${languages[code]} could not be loaded, so the page is in English. Check your network connection and reload the page.`, "bad");
-  }
+  if (code !== "en") await show_in(code);
 }

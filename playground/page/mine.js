@@ -4,8 +4,11 @@ import { $, element, button } from "./dom.js";
 import { new_id } from "./store.js";
 import { checked } from "./workspace.js";
 
-/** As the browser writes dates in the language of the page. */
-const when = { format: date => new Intl.DateTimeFormat(navigator.languages.filter(tag => tag.startsWith(document.documentElement.lang)), { dateStyle: "medium", timeStyle: "short" }).format(date) };
+/** As the browser writes dates in the language of the page; to the second, so that no two versions are called alike. */
+function when(date) {
+  const { lang } = document.documentElement, own = navigator.languages.filter(tag => tag.startsWith(lang));
+  return new Intl.DateTimeFormat(own.length ? own : lang, { dateStyle: "medium", timeStyle: "medium" }).format(date);
+}
 
 /** `on_open(workspace, words)`; `begin()` makes a new one. */
 export function set_up_mine({ store, workspace, on_open, begin }) {
@@ -23,7 +26,7 @@ export function set_up_mine({ store, workspace, on_open, begin }) {
       const rows = await store.versions(id);
       list.append(...rows.length ? rows.map(row => {
         const { files, active } = row.workspace, text = files[row.workspace.main || active] ?? "";
-        return element("li", {}, button(when.format(row.changed), () => open(row, id, title, `“${title}”, as it was on ${when.format(row.changed)}.`), { class: "link" }),
+        return element("li", {}, button(when(row.changed), () => open(row, id, title, `“${title}”, as it was on ${when(row.changed)}.`), { class: "link" }),
           element("span", { class: "hint" }, ` ${text.split("\n").length} lines`));
       }) : [element("li", { class: "hint" }, "none")]);
     });
@@ -38,7 +41,7 @@ export function set_up_mine({ store, workspace, on_open, begin }) {
       const rows = await store.list();
       $("mine-list").replaceChildren(element("ul", { class: "mine" }, ...rows.map(row => element("li", { "data-document": row.id },
         button(row.title || "program", () => open(row, row.id, row.title, `“${row.title}”, as you left it.`), { class: row.id === workspace().document ? "strong" : undefined }),
-        element("span", { class: "hint" }, when.format(row.changed)), earlier(row.id, row.title)))));
+        element("span", { class: "hint" }, when(row.changed)), earlier(row.id, row.title)))));
       if (!rows.length) $("mine-list").replaceChildren(element("p", { class: "empty" }, "Nothing has been saved here yet."));
       if (!$("mine-dialog").open) $("mine-dialog").showModal();
     },

@@ -34,8 +34,9 @@ export function show_own_task({ task }) {
 export function show_class_buttons(workspace) {
   const own = !!workspace.task && !workspace.lesson;
   for (const id of ["lesson-before", "lesson-next", "solution"]) $(id).classList.toggle("gone", own);
-  $("task-edit").hidden = !own || !is_mine(workspace);
-  $("hand-in").hidden = !(workspace.lesson || own) || !tests_of(workspace).length;
+  $("task-edit").hidden = !own || !is_mine(workspace) || !!workspace.name;
+  // What somebody has handed in is there to be looked at.
+  $("hand-in").hidden = !(workspace.lesson || own) || !!workspace.name || !tests_of(workspace).length;
 }
 
 /** The addresses in a file of them. */

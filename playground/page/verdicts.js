@@ -14,24 +14,43 @@ export class Verdicts {
   async run(names) {
     if (this.ball.busy) return;
     if (!names.length) return this.ball.say("There is no test here: create a file that ends in .test.", true);
-    const { files } = this.workspace();
+    const files = structuredClone(this.workspace().files);
     this.ball.set_busy("test");
     this.ball.say("testing…");
     $("cheer").hidden = true;
     const run = this.ball.run_number = {};
     try {
       const { results } = await this.machine.call("test", { files, names });
+      const findings = await this.mistakes(results, files);
       if (this.ball.run_number !== run) return;
+      if (findings) return this.ball.fail({ findings });
       this.ball.finish();
       this.show(results, files);
     } catch (error) {
       if (this.ball.run_number === run) this.ball.fail(error);
     }
   }
+  /** What is wrong with the programs that could not be tested, as `check` says it; null where nothing is. */
+  async mistakes({ tests }, files) {
+    const names = [...new Set(tests.filter(({ cases }) => cases.every(one => one.verdict === "error")).map(({ program }) => program))]
+      .filter(name => Object.hasOwn(files, name));
+    if (!names.length) return null;
+    const found = await this.machine.call("check", { files, names });
+    return found.summary.errors ? found : null;
+  }
+  /** A verdict belongs to a text: it says so where that is another now. */
+  changed(files) {
+    if ($("verdicts").hidden || !this.tested) return;
+    const same = JSON.stringify(files) === JSON.stringify(this.tested.files);
+    $("verdicts-title").textContent = same ? this.tested.words : `Before your change: ${this.tested.words}`;
+    $("verdicts").classList.toggle("stale", !same);
+  }
   show({ tests, summary }, files) {
     const { tests: all, passed, points, pointsOf } = summary;
     const words = `${passed} of ${all} tests passed${pointsOf ? `, ${points} of ${pointsOf} points` : ""}`;
+    this.tested = { files, words };
     $("verdicts-title").textContent = words;
+    $("verdicts").classList.remove("stale");
     $("verdicts").classList.toggle("all-passed", passed === all);
     $("verdict-list").replaceChildren(...tests.map(test => this.row(test, files)));
     $("verdicts").hidden = false;

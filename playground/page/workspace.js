@@ -36,7 +36,7 @@ export function name_trouble(name) {
 }
 
 /** Files and how they are run; plain data, so that it can be kept and shared. */
-export const empty = () => ({ files: {}, active: "", main: "", run: { stimuli: [], course: "", input: "", seed: 1, for: "60s" }, lesson: "", task: "", name: "", document: "", title: "", before: "" });
+export const empty = () => ({ files: {}, active: "", main: "", run: { stimuli: [], course: "", input: "", seed: 1, for: "60s" }, lesson: "", task: "", draft: "", name: "", document: "", title: "", before: "" });
 
 /** A workspace from data that anybody may have written: what does not fit is left out. */
 export function checked(data) {
@@ -59,7 +59,7 @@ export function checked(data) {
   if (/^\d{1,4}(ms|s|min)$/.test(run.for)) made.run.for = run.for;
   for (const key of ["lesson", "name", "document", "title", "before"])
     if (typeof data[key] === "string") made[key] = data[key].slice(0, 80);
-  if (typeof data.task === "string") made.task = data.task.slice(0, limits.task);
+  for (const key of ["task", "draft"]) if (typeof data[key] === "string") made[key] = data[key].slice(0, limits.task);
   return made;
 }
 
@@ -120,7 +120,9 @@ const packs = () => {
 
 /** The part of an address behind `#` that holds a workspace. */
 export async function to_fragment(workspace) {
-  const { files, active, main, run, lesson, task, name } = workspace;
+  const { files, main, run, lesson, task, name } = workspace;
+  // A lesson, and what is handed in, open with the program, whatever its author looked at last.
+  const active = (lesson || task || name) && program_of(workspace, workspace.active) || workspace.active;
   const bytes = new TextEncoder().encode(JSON.stringify({ files, active, main, run, lesson: lesson || undefined, task: task || undefined, name: name || undefined }));
   packs();
   if (bytes.length > limits.shared) throw new AddressError("That is too much for an address; save the files instead.");
@@ -128,12 +130,14 @@ export async function to_fragment(workspace) {
     throw new AddressError("That is too much for an address; save the files instead.");
   }));
 }
-/** The workspace that an address holds. Throws where it is broken or too long. */
+/** The workspace that an address holds, null where it holds none, and how many of how many files it could not take. Throws
+ *  where it is broken or too long. */
 export async function from_fragment(fragment) {
   const found = /^#p=([\w-]+)$/.exec(fragment);
   if (!found) throw new AddressError("The address is damaged: part of it is missing, or something was added. Ask for it again.");
   packs();
   const bytes = await read_all(through(from_base64url(found[1]), new DecompressionStream("deflate-raw")), limits.shared);
   const { files, active, main, run, lesson, task, name } = JSON.parse(new TextDecoder("utf-8", { fatal: true }).decode(bytes));
-  return checked({ files, active, main, run, lesson, task, name });
+  const workspace = checked({ files, active, main, run, lesson, task, name }), all = Object.keys(files ?? {}).length;
+  return { workspace, all, left_out: all - Object.keys(workspace?.files ?? {}).length };
 }

@@ -96,6 +96,9 @@ const hash = createHash("sha256");
 for (const path of files) hash.update(relative(out, path)).update("\0").update(readFileSync(path));
 const names = files.map(path => relative(out, path));
 const comes_later = name => on_demand.has(name) || icons.includes(name) || /^(blocks[./]|languages\/)/.test(name);
+// Blocks are heavy, and are kept where somebody uses them, as is a language; the icons are the browser's.
+const of_blocks = new Set(Object.entries(page.metafile.outputs).filter(([, { inputs }]) => Object.keys(inputs).some(one => one.includes("/blockly/"))).map(([path]) => relative(out, resolve(root, path))));
+const kept_soon = name => on_demand.has(name) && !of_blocks.has(name);
 const json = list => JSON.stringify(list);
 writeFileSync(join(out, "sw.js"), read("playground/sw.js").replace("/*{hash}*/", hash.digest("hex").slice(0, 16))
-  .replace("/*{core}*/[]", json(names.filter(name => !comes_later(name)))).replace("/*{on_demand}*/[]", json(names.filter(comes_later))));
+  .replace("/*{core}*/[]", json(names.filter(name => !comes_later(name)))).replace("/*{on_demand}*/[]", json(names.filter(comes_later))).replace("/*{soon}*/[]", json(names.filter(kept_soon))));

@@ -8,15 +8,13 @@ import os
 import sys
 import unittest
 
-from page_test import by_id, chromium, click, folder, fragment, ready, site_server, stop, text, wait, weight
+from page_test import by_id, chromium, click, folder, fragment, note_violations, ready, site_server, stop, text, wait, weight
 
 program = "' a side\ngoroll 0, 80, 1 ' off\ndelay 1s\n\nif dshake then\n  RGB red\nend if\ngoroll 0, 0, 0\n"
 words = "[...document.querySelectorAll('#blocks .blocklySvg .blocklyBlockCanvas .blocklyText')].map(one => one.textContent.replaceAll('\\u00a0', ' '))"
 field = lambda word: f"[...document.querySelectorAll('#blocks .blocklySvg .blocklyBlockCanvas .blocklyText')].find(one => one.textContent.trim() === '{word}')"
 middle = lambda found: f"(() => {{ const {{ x, y, width, height }} = ({found}).getBoundingClientRect(); return [x + width / 2, y + height / 2]; }})()"
 left = lambda found: f"(() => {{ const {{ x, y, height }} = ({found}).getBoundingClientRect(); return [x + 4, y + height / 2]; }})()"
-# Chromium's own editing of the text writes styles that the policy refuses.
-note_violations = "document.addEventListener('securitypolicyviolation', event => event.target.closest?.('.cm-content') || (window.violations ??= []).push(`${event.violatedDirective} ${event.blockedURI}`));"
 
 
 class Blocks(unittest.TestCase):
@@ -200,6 +198,9 @@ class Blocks(unittest.TestCase):
         box = page.evaluate(f"(() => {{ const {{ x, y, width, height }} = ({field('goroll')}).getBoundingClientRect(); return [x, y, width, height]; }})()")
         self.assertGreater(box[0], 0)
         self.assertGreater(page.evaluate("document.querySelector('.blocklyToolboxCategory').getBoundingClientRect().height"), 30)
+        self.press(page, middle("document.querySelector('.blocklyToolboxCategory')"))
+        page.wait("[...document.querySelectorAll('.blocklyFlyout')].some(one => getComputedStyle(one).display !== 'none')")
+        self.assertTrue(page.evaluate(f"(({{ x, y, width, height }}) => {by_id('run')}.contains(document.elementFromPoint(x + width / 2, y + height / 2)))({by_id('run')}.getBoundingClientRect())"))
 
     def test_they_weigh_little_and_only_for_who_wants_them(self):
         own = [name for name in os.listdir(folder) if name.startswith("view-") or name == "blocks.css"] + [f"blocks/{name}" for name in os.listdir(os.path.join(folder, "blocks"))]

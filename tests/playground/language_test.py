@@ -150,13 +150,57 @@ class Languages(unittest.TestCase):
 
     def test_the_language_is_chosen_in_the_menu_and_remembered(self):
         page = self.open(tags=("en",))
-        page.evaluate(f"{by_id('language')}.value = 'fr'; {by_id('language')}.dispatchEvent(new Event('change'))")
-        page.wait("document.documentElement?.lang === 'fr'")
-        page.wait(ready)
+        self.choose(page, "fr")
         page.go(self.server.url)
         page.wait(ready)
         self.assertEqual(page.evaluate("document.documentElement.lang"), "fr")
         self.assertEqual(page.evaluate(f"{by_id('language')}.value"), "fr")
+
+    def choose(self, page, code):
+        page.evaluate(f"{by_id('language')}.value = '{code}'; {by_id('language')}.dispatchEvent(new Event('change'))")
+        page.wait(f"document.documentElement.lang === '{code}'")
+
+    def test_another_language_loses_nothing(self):
+        blocked = "for (const name of ['localStorage', 'sessionStorage', 'indexedDB']) Object.defineProperty(window, name, { get() { throw new DOMException('denied', 'SecurityError'); } });"
+        for before in ("", blocked):
+            page = self.browser.page(fresh=True)
+            self.addCleanup(page.close)
+            page.resize(1366, 768)
+            page.call("Page.addScriptToEvaluateOnNewDocument", source=speaks("en") + before)
+            page.go(self.server.url + "#lesson=lessons/02-one-metre")
+            page.wait(ready)
+            page.evaluate("document.querySelector('.cm-content').focus(); document.execCommand('insertText', false, 'dealy 1s\\n')")
+            page.wait("document.querySelectorAll('#findings li').length > 0")
+            words = "[document.getElementById('run-words').textContent, document.getElementById('task-title').textContent.replace(/^\\S+ /, ''), document.querySelector('#findings .error')?.textContent ?? '']"
+            first = page.evaluate(words)
+            for code, said in (("de", "ist weder ein Befehl"), ("fr", "n'est ni une instruction")):
+                self.choose(page, code)
+                page.wait(f"({words})[2].includes({json.dumps(said)})")
+                self.assertNotEqual(page.evaluate(words)[0], first[0])
+                self.assertIn("dealy", page.evaluate("document.querySelector('.cm-content').textContent"))
+            self.choose(page, "en")
+            page.wait(f"JSON.stringify({words}) === {json.dumps(json.dumps(first, separators=(',', ':'), ensure_ascii=False))}")
+            page.evaluate("document.querySelector('.cm-content').focus()")
+            page.call("Input.dispatchKeyEvent", type="rawKeyDown", key="z", code="KeyZ", windowsVirtualKeyCode=90, modifiers=2)
+            page.wait("!document.querySelector('.cm-content').textContent.includes('dealy')")
+
+    def test_a_run_goes_on_in_another_language(self):
+        page = self.open(fragment({"a.bas": '10 goroll 0, 60, 1\n20 print "tick"\n30 delay 200\n40 goto 20\n'}), tags=("en",))
+        page.evaluate(click("run"))
+        ticks = "document.querySelectorAll('#events .print').length"
+        page.wait(f"{ticks} > 1", 30)
+        self.choose(page, "de")
+        page.wait(f"{ticks} > 5", 30)
+        self.assertEqual(page.evaluate(f"{by_id('run-words')}.textContent"), "Stopp")
+        page.evaluate(stop)
+
+    def test_blocks_change_their_language(self):
+        page = self.open(fragment({"a.orb": "repeat 4\n  goroll 0, 80, 1\nend repeat\n"}), tags=("en",))
+        page.evaluate(click("as-blocks"))
+        words = "[...document.querySelectorAll('#blocks .blocklyBlockCanvas .blocklyText')].map(one => one.textContent.trim()).join(' ')"
+        page.wait(f"({words}).includes('repeat')", 60)
+        self.choose(page, "de")
+        page.wait(f"({words}).includes('wiederhole')", 60)
 
     def test_a_language_that_cannot_be_loaded_leaves_english(self):
         server = site_server.Site(folder, without=["languages/es.json"])

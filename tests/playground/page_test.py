@@ -30,6 +30,8 @@ coloured = "document.querySelector('.cm-line [class^=tok-]') !== null"
 idle = f"!{by_id('run')}.classList.contains('stop')"
 stop = f"{by_id('run')}.classList.contains('stop') && {by_id('run')}.click()"
 played = f"!{by_id('played')}.classList.contains('idle')"
+# Chromium's own editing of the text writes styles that the policy refuses.
+note_violations = "document.addEventListener('securitypolicyviolation', event => event.target.closest?.('.cm-content') || (window.violations ??= []).push(`${event.violatedDirective} ${event.blockedURI}`));"
 wait = lambda ms: f"new Promise(done => setTimeout(done, {ms}))"
 
 
@@ -131,12 +133,12 @@ class Playground(unittest.TestCase):
         page = self.browser.page(fresh=True)
         self.addCleanup(page.close)
         page.resize(width, height, mobile)
-        if before:
-            page.call("Page.addScriptToEvaluateOnNewDocument", source=before)
+        page.call("Page.addScriptToEvaluateOnNewDocument", source=note_violations + before)
         page.go((server or self.server).url + where)
         page.wait(ready)
         own = (server or self.server).url
         self.addCleanup(lambda: self.assertEqual(page.complaints, []))
+        self.addCleanup(lambda: self.assertIsNone(page.evaluate("window.violations")))
         self.addCleanup(lambda: self.assertEqual([url for url in page.requests if not url.startswith((own, "data:", f"blob:{own}"))], []))
         return page
 
@@ -200,6 +202,8 @@ class Playground(unittest.TestCase):
         self.documents(page)
         page.evaluate("document.querySelector('#mine-list details').open = true")
         page.wait("document.querySelectorAll('#mine-list ol button').length >= 3")
+        labels = page.evaluate("[...document.querySelectorAll('#mine-list ol button')].map(one => one.textContent)")
+        self.assertEqual(len(set(labels)), len(labels), labels)
         page.evaluate("[...document.querySelectorAll('#mine-list ol button')].pop().click()")
         page.wait(f"({text}).includes('one')")
 
@@ -362,7 +366,6 @@ class Playground(unittest.TestCase):
             page.wait(idle)
             self.assertEqual(page.evaluate("document.activeElement.id"), name)
         self.assertIn("said", page.evaluate(f"{by_id('announce')}.textContent"))
-        self.assertEqual(page.evaluate(f"{by_id('count')}.getAttribute('role')"), "status")
 
     def test_limits_are_told_as_they_are(self):
         page = self.open(fragment({"a.bas": "10 end\n"}))
@@ -684,6 +687,109 @@ class Playground(unittest.TestCase):
         teacher.wait(f"{by_id('came')}.textContent.includes('Anna B.')")
         self.assertIn("hello", teacher.evaluate(text))
 
+    def escape(self, page):
+        for kind in ("rawKeyDown", "keyUp"):
+            page.call("Input.dispatchKeyEvent", type=kind, key="Escape", code="Escape", windowsVirtualKeyCode=27)
+
+    def test_a_lesson_opens_with_its_program(self):
+        teacher = self.open(fragment(self.lesson_files, active="robot.test"))
+        teacher.wait(f"{by_id('what')}.textContent.includes('robot.test')")
+        pupil = self.open(self.write_lesson(teacher, "Hello", "Say **hello**."))
+        pupil.wait(f"{by_id('what')}.textContent.includes('robot.orb')")
+
+    def test_a_lesson_that_is_closed_is_a_draft(self):
+        page = self.open(fragment(self.lesson_files))
+        fields = f"[{by_id('lesson-title')}.value, {by_id('lesson-text')}.value]"
+        for leave in (lambda: self.escape(page), lambda: page.evaluate("[...document.querySelectorAll('#lesson-form button')].find(one => one.textContent === 'Close').click()")):
+            page.evaluate(click("lesson-write"))
+            page.wait(f"{by_id('lesson-dialog')}.open")
+            page.evaluate(f"{by_id('lesson-title')}.value = 'Hello'; {by_id('lesson-text')}.value = 'Say hello.'")
+            leave()
+            page.wait(f"!{by_id('lesson-dialog')}.open")
+            self.assertTrue(page.evaluate(f"{by_id('task')}.hidden"))
+        page.evaluate(wait(600))
+        page.call("Page.reload")
+        page.wait(ready)
+        page.evaluate(click("lesson-write"))
+        page.wait(f"{by_id('lesson-dialog')}.open && !{by_id('lesson-draft')}.hidden")
+        self.assertEqual(page.evaluate(fields), ["Hello", "Say hello."])
+        page.evaluate(click("lesson-discard"))
+        self.assertEqual(page.evaluate(fields), ["robot.orb", ""])
+
+    def test_the_test_of_a_lesson_is_written_beside_its_task(self):
+        page = self.open(fragment({"robot.orb": 'print "?"\n'}))
+        page.evaluate(click("lesson-write"))
+        page.wait("document.getElementById('lesson-make-test') !== null")
+        page.evaluate(click("lesson-make-test"))
+        page.wait(f"!{by_id('lesson-test-label')}.hidden && {by_id('lesson-test')}.value.startsWith('test ')")
+        put = lambda words: page.evaluate(f"{by_id('lesson-test')}.value = {json.dumps(words)}; {by_id('lesson-test')}.dispatchEvent(new Event('input'))")
+        verdict = "document.getElementById('lesson-verdict')?.textContent"
+        put('test "a"\n  expect print "!"\n')
+        page.wait(f"{verdict} === 'The program passes 0 of 1.'", 20)
+        put('test "a"\n  expects print "!"\n')
+        page.wait(f"{verdict}?.startsWith('line 2: ')", 20)
+        put('test "a"\n  expect print "?"\n')
+        page.wait(f"{verdict}?.startsWith('The program already passes')", 20)
+        self.escape(page)
+        page.wait(f"!{by_id('lesson-dialog')}.open")
+        page.evaluate(click("tab-robot.test"))
+        page.wait(f"({text}).includes('print \"?\"')")
+
+    def test_a_result_says_whose_it_is(self):
+        page = self.open(fragment(self.lesson_files, name="Ben", task="# Hello"))
+        page.wait(f"{by_id('task-title')}.textContent === 'Hello'")
+        page.evaluate("[...document.querySelectorAll('#came button')].find(one => one.textContent === 'OK')?.click()")
+        self.assertIn("Handed in by Ben.", page.evaluate(f"{by_id('came')}.textContent"))
+        self.assertEqual(page.evaluate(f"[{by_id('task-edit')}.hidden, {by_id('hand-in')}.hidden, {by_id('came')}.hidden]"), [True, True, False])
+
+    def test_a_verdict_belongs_to_a_text(self):
+        page = self.open(fragment({"robot.orb": 'print "hello"\n', "robot.test": self.lesson_files["robot.test"]}))
+        title = f"{by_id('verdicts-title')}.textContent"
+        page.evaluate(click("test"))
+        page.wait(f"{title} === '1 of 1 tests passed, 1 of 1 points'", 30)
+        self.type(page, "")
+        page.key("Delete")
+        page.wait(f"{title} === 'Before your change: 1 of 1 tests passed, 1 of 1 points'")
+        self.assertEqual(page.evaluate("getComputedStyle(document.querySelector('#cheer')).display"), "none")
+
+    def test_a_program_with_mistakes_is_not_tested(self):
+        files = {"robot.orb": "RGB rde\n", "robot.test": 'test "a"\n  expect print "1"\ntest "b"\n  expect print "2"\n'}
+        page = self.open(fragment(files, active="robot.test"))
+        page.evaluate(click("test"))
+        page.wait(f"{outcome}.includes('It has errors')", 30)
+        self.assertTrue(page.evaluate(f"{by_id('verdicts')}.hidden"))
+        page.wait(f"{by_id('what')}.textContent.includes('robot.orb') && document.querySelectorAll('#findings .error').length === 1")
+
+    def test_the_browsers_back_leads_back(self):
+        page = self.open(fragment({"a.bas": '10 print "mine"\n'}))
+        page.evaluate("location.hash = '#lesson=lessons/01-traffic-light'")
+        page.wait(f"{by_id('task-title')}.textContent.includes('Traffic light')")
+        page.evaluate(click("lesson-next"))
+        page.wait(f"{by_id('task-title')}.textContent.includes('One metre')")
+        page.evaluate("history.back()")
+        page.wait(f"{by_id('task-title')}.textContent.includes('Traffic light')")
+        page.evaluate("history.back()")
+        page.wait(f"({text}).includes('mine')")
+        page.evaluate("history.forward()")
+        page.wait(f"{by_id('task-title')}.textContent.includes('Traffic light')")
+
+    def test_the_count_is_announced_when_the_typing_rests(self):
+        page = self.open(fragment({"a.orb": "print 1\n"}))
+        page.wait(coloured)
+        page.evaluate(wait(4000))
+        page.evaluate("""window.said = []; for (const one of document.querySelectorAll('[role=status], [aria-live]'))
+          new MutationObserver(() => said.push(one.textContent)).observe(one, { childList: true, subtree: true, characterData: true })""")
+        page.evaluate("document.querySelector('.cm-content').focus()")
+        for letter in "dealy 1s":
+            page.key(letter)
+            page.evaluate(wait(120))
+        page.wait("said.length > 0", 10)
+        self.assertEqual(page.evaluate("said"), ["1 error"])
+
+    def test_files_that_an_address_cannot_bring_are_counted(self):
+        page = self.open(fragment({f"a{number}.bas": "10 end\n" for number in range(200)}))
+        self.assertIn("176 of the 200 files", page.evaluate(f"{by_id('status')}.textContent"))
+
     def test_a_file_with_an_address_opens(self):
         page = self.open(fragment({"a.bas": "10 end\n"}))
         drop = lambda content: page.evaluate(f"""(() => {{ const data = new DataTransfer(); data.items.add(new File([{json.dumps(content)}], 'ben.link'));
@@ -746,7 +852,8 @@ class Playground(unittest.TestCase):
     def test_a_first_visit_loads_what_is_counted(self):
         server = site_server.Site(folder)
         self.addCleanup(server.close)
-        page = self.open(server=server)
+        # Of what is kept when the page rests nothing comes here.
+        page = self.open(server=server, before="Object.defineProperty(navigator, 'connection', { value: { saveData: true } });")
         page.wait("navigator.serviceWorker.controller !== null", 30)
         page.evaluate(click("run"))  # what somebody does who was never here
         page.wait(f"{by_id('hands')}.hidden === false")
@@ -863,6 +970,30 @@ class Playground(unittest.TestCase):
         page.wait(f"{events}.length > 0")
         page.evaluate(click("pick"))
         page.wait("document.querySelectorAll('.cards button').length > 20")
+
+    def test_what_was_never_used_works_without_a_network(self):
+        server = site_server.Site(folder)
+        page = self.open(server=server)
+        soon = [name for name in weight.weights(folder, "soon")]
+        self.assertTrue(any(name.endswith(".wasm") for name in soon))
+        for name in soon:
+            page.wait(f"caches.match({json.dumps(name)}).then(found => !!found)", 60)
+        server.close()
+        page.call("Page.reload")
+        page.wait(ready, 30)
+        page.evaluate("location.hash = " + json.dumps(fragment({"a.macro": "rgb 0, 255, 0\ndelay 1s\n", "a.bas": "10 rgb 1\n"})))
+        page.evaluate("document.getElementById('tab-a.bas')?.click()")
+        page.wait("document.querySelectorAll('#findings .error').length === 1", 30)
+        open_flash(page)
+        page.evaluate(f"{by_id('flash-dialog')}.close()")
+        page.evaluate("document.getElementById('tab-a.macro').click()")
+        self.instant(page)
+        page.wait(f"{outcome}.includes('ended')")
+        # What nobody has used is missing, in one sentence.
+        page.evaluate("location.hash = " + json.dumps(fragment({"b.orb": "print 1\n"})))
+        page.evaluate(click("as-blocks"))
+        page.wait("document.querySelector('.blocks-words')?.textContent.includes('not on this device yet')", 20)
+        page.complaints.clear()
 
     # -- onto a ball --
     def flash(self, kind, mock, *options, cut=None, files=None):
@@ -1064,6 +1195,16 @@ class Playground(unittest.TestCase):
             small = page.evaluate("""[...document.querySelectorAll('button, select, a.as-button')].filter(one => one.offsetParent && !one.closest('.cm-editor, dialog, .link'))
               .filter(one => one.getBoundingClientRect().height < 24).map(one => one.id || one.textContent)""")
             self.assertEqual(small, [])
+
+    def test_a_low_page_shows_both(self):
+        for width, height, mobile in ((844, 390, True), (683, 384, False)):  # a phone on its side; 200 % of 1366 x 768
+            page = self.open("#lesson=lessons/03-square", width, height, mobile)
+            self.instant(page)
+            page.evaluate("document.querySelector('.work').scrollTop = 1e4; document.querySelector('.player').scrollTop = 1e4")
+            seen = lambda name: page.evaluate(f"(({{ top, bottom }}) => Math.min(bottom, innerHeight) - Math.max(top, 0))(document.querySelector('{name}').getBoundingClientRect())")
+            self.assertGreater(seen("#editor"), 140, width)
+            self.assertGreater(seen("#map"), 140, width)
+            self.assertLessEqual(page.evaluate("document.documentElement.scrollWidth"), width)
 
     def test_a_keyboard_is_enough(self):
         page = self.open(fragment({"a.bas": '10 print "keys"\n', "a.test": 'test "t"\n  expect print "keys"\n'}))

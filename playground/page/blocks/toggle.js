@@ -40,19 +40,21 @@ export function set_up_blocks({ nonce, language, editor, active, add_file, edito
     words.hidden = false;
     canvas.hidden = zooms.hidden = true;
   }
+  const style = element("link", { rel: "stylesheet", href: new URL("./blocks.css", import.meta.url).href });
   async function load() {
-    document.head.append(element("link", { rel: "stylesheet", href: new URL("./blocks.css", import.meta.url).href }));
-    const [{ make_blocks, most_rows }, vocabulary] = await Promise.all([import("./view.js"), language.call("words")]);
+    document.head.append(style);
+    const missing = () => { throw new Error("this part of the page is not on this device yet: connect to the network once"); };
+    const [{ make_blocks, most_rows }, vocabulary] = await Promise.all([import("./view.js").catch(missing), language.call("words")]);
     words.hidden = true;
     canvas.hidden = zooms.hidden = false;
-    view = make_blocks({ parent: canvas, nonce, words: vocabulary, narrow: matchMedia("(max-width: 860px)").matches,
+    view = await make_blocks({ parent: canvas, nonce, words: vocabulary, narrow: matchMedia("(max-width: 860px)").matches,
       on_text(text, typed) {
         own_text = text;
         editor.put(text, typed);
       } });
     view.most_rows = most_rows;
-    new ResizeObserver(() => { if (!pane.hidden) view.resize(); }).observe(canvas);
   }
+  new ResizeObserver(() => { if (!pane.hidden) view?.resize(); }).observe(canvas);
   async function show({ fresh }) {
     if (!show_switch()) {
       shown = "";
@@ -116,6 +118,12 @@ export function set_up_blocks({ nonce, language, editor, active, add_file, edito
   return {
     /** Another file is open. */
     open() { own_text = null; show({ fresh: true }); },
+    /** The page is in another language: the words of a block are those that it was made with. */
+    say_anew() {
+      view?.dispose();
+      view = loading = null;
+      show({ fresh: true });
+    },
     changed(text) { if (!pane.hidden && text !== own_text) show({ fresh: false }); },
     findings(list) {
       last_findings = list ?? [];

@@ -12,7 +12,6 @@ import { drawers, toolbox_of } from "./toolbox.js";
 export { most_rows } from "./rows.js";
 
 const messages = { de: () => import("blockly/msg/de"), es: () => import("blockly/msg/es"), fr: () => import("blockly/msg/fr") };
-Blockly.setLocale(await (messages[document.documentElement.lang] ?? (() => import("blockly/msg/en")))());
 // The page's own history is that of the text.
 for (const name of ["undo", "redo"]) Blockly.ShortcutRegistry.registry.unregister(name);
 
@@ -33,8 +32,10 @@ function with_nonce(nonce, deed) {
 
 const gap = 40;
 
-/** `on_text(text, typed)`: the blocks say something else now; `typed`: somebody is still typing. */
-export function make_blocks({ parent, nonce, words, narrow, on_text }) {
+/** Blocks in the language of the page. `on_text(text, typed)`: the blocks say something else now; `typed`: somebody is still
+ *  typing. */
+export async function make_blocks({ parent, nonce, words, narrow, on_text }) {
+  Blockly.setLocale(await (messages[document.documentElement.lang] ?? (() => import("blockly/msg/en")))());
   define_blocks(Blockly, words);
   let places = new Map(); // of lines of the text: the blocks that stand for them
   let loading = false, written = null, planned = false;
@@ -186,6 +187,7 @@ export function make_blocks({ parent, nonce, words, narrow, on_text }) {
       while (block && ![...places.values()].includes(block.id)) block = block.getParent?.();
       return block ? [...places].find(([, id]) => id === block.id)[0] : 0;
     },
+    dispose: () => workspace.dispose(),
     zoom: step => workspace.zoomCenter(step),
     resize: () => Blockly.svgResize(workspace),
     workspace: () => workspace,

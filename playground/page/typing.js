@@ -1,0 +1,90 @@
+// What the editor does while somebody types: it closes brackets, moves lines in, and offers words. What opens and closes
+// is in the language configurations that VS Code reads, too.
+
+import { autocompletion, closeBrackets, closeBracketsKeymap } from "@codemirror/autocomplete";
+import { serverCompletionSource } from "@codemirror/lsp-client";
+import { EditorState } from "@codemirror/state";
+import { keymap } from "@codemirror/view";
+import bas from "../../docs/editors/vscode/orbbasic.language-configuration.json";
+import macro from "../../docs/editors/vscode/orbmacro.language-configuration.json";
+import orb from "../../docs/editors/vscode/orbstructured.language-configuration.json";
+import stimulus from "../../docs/editors/vscode/orbstimulus.language-configuration.json";
+import test from "../../docs/editors/vscode/orbtest.language-configuration.json";
+
+const configurations = { __proto__: null, bas, macro, orb, stimulus, test };
+const step = "  ";
+
+/** Which lines of a language begin a block (`more`), and which end or part one (`less`); null where none does. */
+export function blocks_of(ending) {
+  const { increaseIndentPattern: more, decreaseIndentPattern: less } = configurations[ending]?.indentationRules ?? {};
+  return more ? { more: new RegExp(more), less: new RegExp(less ?? "(?!)") } : null;
+}
+
+const blanks_before = text => /^\s*/.exec(text)[0];
+/** The blanks before the line `here`. `above`: the lines above it, the nearest first. */
+export function indentation(here, above, { more, less }) {
+  if (less.test(here)) {
+    let inner = 0; // blocks that end between this line and where its own begins
+    for (const line of above) {
+      const opens = more.test(line), closes = less.test(line);
+      if (closes && !opens) ++inner;
+      else if (opens && !closes && --inner < 0)
+        // What parts a `select` stands within it.
+        return blanks_before(line) + (more.test(here) && /^\s*select\b/.test(line) ? step : "");
+    }
+    return "";
+  }
+  for (const line of above) if (line.trim()) return blanks_before(line) + (more.test(line) ? step : "");
+  return "";
+}
+
+/** The lines above one, the nearest first. */
+function* lines_above(doc, number) {
+  while (--number > 0) yield doc.line(number).text;
+}
+/** Moves a line back that ends a block or parts one, and in again when it turns out to be another: `next`, `nextval`. */
+const follow_block = blocks => EditorState.transactionFilter.of(typed => {
+  if (!typed.isUserEvent("input.type") && !typed.isUserEvent("input.complete")) return typed;
+  const doc = typed.newDoc, { head } = typed.newSelection.main, line = doc.lineAt(head), own = blanks_before(line.text);
+  if (head < line.to || !line.text.trim()) return typed;
+  const wanted = indentation(line.text, lines_above(doc, line.number), blocks);
+  const inner = indentation("", lines_above(doc, line.number), blocks);
+  const before = indentation(line.text.slice(0, -1), lines_above(doc, line.number), blocks);
+  // What somebody has moved by hand stays there.
+  if (own === wanted || own !== inner && own !== before) return typed;
+  return [typed, { changes: { from: line.from, to: line.from + own.length, insert: wanted }, sequential: true }];
+});
+/** A new line, moved in as its block is. */
+const new_line = blocks => ({ state, dispatch }) => {
+  const { main, ranges } = state.selection;
+  if (ranges.length > 1 || !main.empty) return false;
+  const line = state.doc.lineAt(main.head), before = line.text.slice(0, main.head - line.from), after = line.text.slice(main.head - line.from);
+  const next = indentation(after, function* () { yield before; yield* lines_above(state.doc, line.number); }(), blocks);
+  const changes = { from: main.head, to: main.head + blanks_before(after).length, insert: `\n${next}` };
+  dispatch(state.update({ changes, selection: { anchor: main.head + 1 + next.length }, scrollIntoView: true, userEvent: "input" }));
+  return true;
+};
+
+/** Offers words that begin like the one being typed: none behind a blank, and none for a word that is complete. */
+async function offers(context) {
+  const typed = context.matchBefore(/[A-Za-z_]\w*/);
+  if (!typed && !context.explicit) return null;
+  const found = await serverCompletionSource(context);
+  const words = new Set(found?.options.map(({ label }) => label.toLowerCase()));
+  const is_complete = word => words.has(word.toLowerCase());
+  if (!found || typed && !context.explicit && is_complete(typed.text)) return null;
+  return { ...found, validFor: word => /^\w*$/.test(word) && !is_complete(word) };
+}
+
+/** For a file of that kind. */
+export function typing(ending) {
+  const { autoClosingPairs = [], comments } = configurations[ending] ?? {}, blocks = blocks_of(ending);
+  const data = [{ closeBrackets: { brackets: autoClosingPairs.map(({ open }) => open) }, ...comments ? { commentTokens: { line: comments.lineComment } } : {} }];
+  return [
+    EditorState.languageData.of(() => data),
+    closeBrackets(), keymap.of(closeBracketsKeymap),
+    // Enter is a new line unless somebody has chosen a word with an arrow key.
+    autocompletion({ override: [offers], selectOnOpen: false, filterStrict: true }),
+    ...blocks ? [follow_block(blocks), keymap.of([{ key: "Enter", run: new_line(blocks), shift: new_line(blocks) }])] : [],
+  ];
+}
