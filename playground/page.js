@@ -62,7 +62,7 @@ blocks = set_up_blocks({ nonce, language, editor, editor_pane: $("editor"), befo
     show_file(name);
   } });
 
-const engines = watch_engines({ language, machine, on_machine_gone: () => ball.give_up() });
+const engines = watch_engines({ language, machine, on_machine_gone: words => ball.give_up(words) });
 
 // ---- what is written is kept ----
 const store = new Store(words => show_trouble("storage", words));
@@ -99,6 +99,7 @@ function show_findings(list) {
     $("findings").replaceChildren();
     $("count").textContent = engines.checks() ? "checking…" : "not checked";
     $("count").className = "";
+    clearTimeout(telling);
     return;
   }
   const ordered = [...list].sort((a, b) => a.from - b.from);
@@ -117,7 +118,7 @@ function show_findings(list) {
   tell_count();
 }
 let telling = 0, told_count = "";
-/** A screen reader says it when the typing rests, and only where it is another. */
+/** A screen reader says it when the typing rests, and only when it has changed. */
 function tell_count() {
   clearTimeout(telling);
   telling = setTimeout(() => {
@@ -151,6 +152,7 @@ function show_tabs() {
   $("drop-file").disabled = tabs.length < 2;
   $("what").textContent = `${kind_of(workspace.active).words}: ${workspace.active}`;
   show_test_button();
+  verdicts.changed(workspace.files);
 }
 function show_test_button() {
   $("test").textContent = workspace.lesson || workspace.task ? "Am I done?" : "Test";
@@ -181,25 +183,26 @@ function show_file(name) {
   keep_soon();
 }
 function open_workspace(next) {
+  for (const open of document.querySelectorAll("dialog[open]")) open.close();
   editor.reset();
   workspace = next;
   workspace.title ||= workspace.main || program_of(workspace, workspace.active) || workspace.active;
   $("verdicts").hidden = true;
   world.show();
   show_file(workspace.active);
-  show_task_of();
   steps.show(workspace);
+  show_task_of();
   show_came();
   ball.rest();
 }
 function show_task_of(stays = false) {
-  show_task(workspace.lesson, { on_pick: pick, on_solution: show_solution }, stays);
+  if (!steps.draw_again()) show_task(workspace.lesson, { on_pick: pick, on_solution: show_solution }, stays);
   if (workspace.task && !workspace.lesson) show_own_task(workspace);
   show_class_buttons(workspace);
 }
 /** What was open before, and the way back to it: also after the page was loaded again. */
 function show_came(words = "", more = []) {
-  const whose = workspace.name ? `Handed in by ${workspace.name}.` : ""; // which stays when the rest is seen
+  const whose = workspace.name ? `Handed in by “${workspace.name}”.` : ""; // which stays when the rest is seen
   const back = workspace.before ? [button("Back to what you had", go_back)] : [], buttons = [...more, ...back];
   $("came").hidden = !whose && !buttons.length;
   $("came").replaceChildren(element("span", {}, words || whose || `This is “${workspace.title}”.`), ...buttons, ...buttons.length ? [button("OK", () => {
@@ -216,8 +219,11 @@ function exchange(next, words, more = []) {
   history[other && history.state ? "pushState" : "replaceState"]({ document: next.document }, "");
 }
 window.addEventListener("popstate", async ({ state }) => {
-  const next = state && state.document !== workspace.document && await document_of(state.document);
-  if (next) change_to({ ...next, before: "" }, `“${next.title}”, as you left it.`);
+  if (!state || state.document === workspace.document) return;
+  const next = await document_of(state.document);
+  if (history.state?.document !== state.document) return; // somebody went on meanwhile
+  if (!next) say("This browser no longer has it.", "bad");
+  else change_to({ ...next, before: "" }, `“${next.title}”, as you left it.`);
 });
 /** What was there stays as it is, in a place of its own. */
 function change_to(next, words, more = []) {
@@ -364,7 +370,7 @@ async function take_address(hash) {
   if (!hash.startsWith("#p=")) throw new AddressError(`The address ends in “${hash.slice(0, 30)}”, which this page does not understand.`);
   const { workspace: next, all, left_out } = await from_fragment(hash);
   if (!next) throw new AddressError("The address is damaged: it contains no program that can be read.");
-  if (left_out) say(`${left_out} of the ${all} files in the address are left out: at most ${limits.files} can be open, with names and sizes that the page knows.`, "bad");
+  if (left_out) say(`${left_out} of the ${all} files in the address are left out: at most ${limits.files} can be open, and each needs a known ending and at most ${limits.text.toLocaleString("en")} characters.`, "bad");
   if (next.name) return () => exchange({ ...next, document: new_id(), title: `${next.name}: ${title_of(next)}` }, "");
   if (!next.task) return () => exchange({ ...next, document: new_id() }, "A shared program is open.");
   return () => resume({ ...next, document: id_of(hash), title: title_of(next) }, `The lesson “${title_of(next)}”`);
@@ -399,7 +405,7 @@ const ball = new Ball({ machine, player, workspace: () => workspace, on_mistakes
   } });
 const verdicts = new Verdicts({ machine, ball, workspace: () => workspace, on_place: go_to, on_hand_in: () => hand_in(),
   on_passed() {
-    if (!workspace.lesson) return workspace.task ? undefined : null;
+    if (!workspace.lesson || workspace.name) return workspace.task ? undefined : null;
     mark_done(workspace.lesson);
     show_task_of(true);
     const next = lesson_after(workspace.lesson);
@@ -407,14 +413,18 @@ const verdicts = new Verdicts({ machine, ball, workspace: () => workspace, on_pl
   } });
 const with_class = on_demand(async () => (await import("./page/class.js")).set_up_class({
   machine, workspace: () => workspace, share, address_of, keep: keep_soon,
+  mistakes: (results, files) => verdicts.mistakes(results, files),
   write_file(name, text) {
     workspace.files[name] = text;
     editor.forget(name);
     keep_soon();
   },
   on_change() {
-    if (workspace.task) workspace.title = title_of(workspace);
-    workspace.document ||= new_id();
+    if (workspace.task && !workspace.name) workspace.title = title_of(workspace);
+    if (!workspace.document) {
+      workspace.document = new_id();
+      history.replaceState({ document: workspace.document }, "");
+    }
     show_file(workspace.active);
     show_task_of();
   },
@@ -500,11 +510,11 @@ const begun = begin();
 machine.on("ready", () => begun.then(() => { document.documentElement.dataset.ready ??= Math.round(performance.now()); }));
 
 // ---- without a network ----
-const rests_after = 8000; // milliseconds from the first look at the page
+const rests_after = 8000; // milliseconds after the service worker is ready
 async function keep_page() {
   await navigator.serviceWorker.register("sw.js");
   const { active } = await navigator.serviceWorker.ready;
   await new Promise(done => setTimeout(done, rests_after));
-  if (!navigator.connection?.saveData) active.postMessage(performance.getEntriesByType("resource").map(({ name }) => name));
+  active.postMessage({ loaded: performance.getEntriesByType("resource").map(({ name }) => name), all: !navigator.connection?.saveData });
 }
 if ("serviceWorker" in navigator && location.protocol.startsWith("http")) keep_page().catch(() => {});

@@ -1,6 +1,6 @@
 // Keeps the playground on this device, so that it works without a network. The build puts in the names
 // of the files and a hash of all that is in them: another build has another cache. What is loaded on demand
-// is kept once it was; `soon` is that part of it which works without being seen, and is kept when the page rests.
+// is kept once it was; `soon` is the part of it that is loaded in the background once the page is idle.
 const cache_name = "orb-playground-/*{hash}*/";
 const core = /*{core}*/[];
 const on_demand = /*{on_demand}*/[];
@@ -16,15 +16,15 @@ self.addEventListener("activate", event => event.waitUntil((async () => {
 })()));
 
 /** What the page has loaded before this worker took over, and what it may want without a network. */
-async function keep(loaded) {
+async function keep({ loaded, all }) {
   const cache = await caches.open(cache_name), { scope } = self.registration;
   const names = loaded.map(url => url.slice(scope.length)).filter(name => on_demand.includes(name));
-  for (const name of new Set([...names, ...soon]))
+  for (const name of new Set([...names, ...all ? soon : []]))
     if (!await cache.match(scope + name)) await cache.add(scope + name).catch(() => {}); // the next visit tries again
 }
 self.addEventListener("message", event => event.waitUntil(keep(event.data)));
 
-const lacks = new Response(`<!doctype html><meta charset="utf-8"><title>orb</title><p>This page is not on this device yet: connect to the network once. <a href="${self.registration.scope}">Back to the playground</a>`,
+const lacks = new Response(`<!doctype html><html lang="en"><meta charset="utf-8"><meta name="viewport" content="width=device-width"><title>orb</title><p>This page is not on this device yet: connect to the network once. <a href="${self.registration.scope}">Back to the playground</a>`,
   { status: 503, headers: { "content-type": "text/html; charset=utf-8" } });
 async function answer(request) {
   const cache = await caches.open(cache_name);

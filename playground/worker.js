@@ -14,9 +14,9 @@ function rest_of_wasm() {
   try {
     request.send();
   } catch {
-    throw new Missing("a part of it is not on this device yet: connect to the network once");
+    throw new Missing("a part of orb is not on this device yet: connect to the network once");
   }
-  if (request.status !== 200) throw new Missing(`a part of it could not be loaded (${request.status})`);
+  if (request.status !== 200) throw new Missing(`a part of orb could not be loaded (${request.status})`);
   return request.response;
 }
 

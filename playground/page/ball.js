@@ -221,11 +221,11 @@ export class Ball {
     this.say(error.findings ? "It has errors; they are listed below the program." : error.message, true);
   }
   /** The engine is gone. */
-  give_up() {
+  give_up(reason) {
     if (!this.busy) return;
     this.finish();
     this.player.settle();
-    this.say("orb's engine has stopped.", true);
+    this.say(`orb's engine has stopped: ${reason}`, true);
   }
 
   /** At once, whatever the program does. */

@@ -5,35 +5,46 @@ import { $, button, copy, download, element, with_code } from "./dom.js";
 import { is_mine, parts_of } from "./task.js";
 import { kinds, program_of, tests_of } from "./workspace.js";
 
-/** `on_change()` where the files or the task are others, `write_file(name, text)`, `keep()`; `share(workspace)` shows an
- *  address, `address_of(workspace)` makes one. */
-export function set_up_class({ machine, workspace, on_change, write_file, keep, share, address_of }) {
+/** `on_change()`: the task is another now; `write_file(name, text)`, `keep()`; `share(workspace)` shows an address,
+ *  `address_of(workspace)` makes one; `mistakes(results, files)` is that of Verdicts. */
+export function set_up_class({ machine, workspace, on_change, write_file, keep, share, address_of, mistakes }) {
   // -- a teacher --
   const dialog = $("lesson-dialog");
+  let now = null; // the workspace that the dialog is about, whatever is opened behind it
   let tested = ""; // the file that “Am I done?” runs
-  async function show_parts() {
-    const now = workspace(), program = program_of(now, now.active), tests = tests_of(now);
+  function show_parts() {
+    const program = program_of(now, now.active), tests = tests_of(now);
     tested = tests.find(name => program_of(now, name) === program) ?? tests[0] ?? "";
     const row = (words, ...what) => [element("dt", {}, words), element("dd", {}, ...what)];
-    const verdict = element("span", { class: "hint", id: "lesson-verdict", role: "status" });
     $("lesson-parts").replaceChildren(
       ...row("Pupils start with", program ? element("code", {}, program) : "no program yet"),
-      ...row("“Am I done?” runs", ...tests.length ? [element("code", {}, tests.join(", ")), " ", verdict]
+      ...row("“Am I done?” runs", ...tests.length ? [element("code", {}, tests.join(", ")), " ", element("span", { class: "hint", id: "lesson-verdict", role: "status" })]
         : ["nothing yet ", ...program ? [button("Create a test", () => make_test(program), { id: "lesson-make-test" })] : []]),
       ...row("Around the ball", element("span", {}, [now.run.course, ...now.run.stimuli].filter(Boolean).join(", ") || "nothing"), element("span", { class: "hint" }, " (chosen under More)")));
     $("lesson-share").disabled = !program;
     $("lesson-test-label").hidden = !tested;
     if (!tested) return;
     if ($("lesson-test").value !== now.files[tested]) $("lesson-test").value = now.files[tested];
-    verdict.replaceChildren(...await judge(now, tests));
+    judge(tests);
   }
-  async function judge({ files }, names) {
+  let judging = false;
+  /** Says how the program does. One question at a time: what is typed meanwhile is judged after it. */
+  async function judge(names) {
+    if (judging) return plan_judgement();
+    judging = true;
+    const files = structuredClone(now.files), said = await verdict_of(files, names);
+    judging = false;
+    $("lesson-verdict")?.replaceChildren(...said);
+  }
+  async function verdict_of(files, names) {
     try {
-      const { summary } = (await machine.call("test", { files, names })).results;
+      const { results } = await machine.call("test", { files, names }), { summary } = results;
+      const findings = await mistakes(results, files);
+      if (findings) throw { findings };
       return [summary.passed === summary.tests ? "The program already passes: what is left for pupils to do?" : `The program passes ${summary.passed} of ${summary.tests}.`];
     } catch ({ message, findings }) {
       const first = findings?.diagnostics.find(one => one.severity === "error");
-      return first ? [`line ${first.line}`, ": ", with_code(first.message)] : [message];
+      return first ? [element("code", {}, first.file.replace(/^\/+/, "")), " ", `line ${first.line}`, ": ", with_code(first.message)] : [message];
     }
   }
   function make_test(program) {
@@ -42,10 +53,13 @@ export function set_up_class({ machine, workspace, on_change, write_file, keep, 
     $("lesson-test").focus();
   }
   let typed = 0;
+  function plan_judgement() {
+    clearTimeout(typed);
+    typed = setTimeout(() => judge(tests_of(now)), 500);
+  }
   $("lesson-test").addEventListener("input", () => {
     write_file(tested, $("lesson-test").value);
-    clearTimeout(typed);
-    typed = setTimeout(show_parts, 500);
+    plan_judgement();
   });
 
   const fill = task => {
@@ -53,10 +67,11 @@ export function set_up_class({ machine, workspace, on_change, write_file, keep, 
     $("lesson-title").value = title;
     $("lesson-text").value = text;
   };
+  const written = () => `# ${$("lesson-title").value.trim() || "Lesson"}\n\n${$("lesson-text").value.trim()}\n`;
   const begun = ({ task, title }) => task || `# ${title}\n\n`;
   function write() {
     for (const open of document.querySelectorAll("dialog[open]")) open.close();
-    const now = workspace();
+    now = workspace();
     fill(now.draft || begun(now));
     $("lesson-draft").hidden = !now.draft;
     dialog.returnValue = "";
@@ -64,21 +79,30 @@ export function set_up_class({ machine, workspace, on_change, write_file, keep, 
     $("lesson-title").focus();
     show_parts();
   }
+  /** Escape, a closed tab: nothing is lost. What is no lesson yet is a draft. */
+  function keep_draft() {
+    now.draft = written().trim() === begun(now).trim() ? "" : written();
+    keep();
+  }
+  for (const id of ["lesson-title", "lesson-text"]) $(id).addEventListener("input", keep_draft);
   $("lesson-discard").addEventListener("click", () => {
-    workspace().draft = "";
-    fill(begun(workspace()));
+    now.draft = "";
+    fill(begun(now));
     $("lesson-draft").hidden = true;
+    $("lesson-title").focus();
     keep();
   });
-  // Escape, too, loses nothing: what is no lesson yet is a draft.
   dialog.addEventListener("close", () => {
-    const now = workspace(), text = `# ${$("lesson-title").value.trim() || "Lesson"}\n\n${$("lesson-text").value.trim()}\n`, made = dialog.returnValue;
-    now.draft = made || text.trim() === begun(now).trim() ? "" : text;
-    if (made) {
-      now.task = text;
-      now.lesson = "";
-      if (!is_mine(now)) now.document = "";
+    clearTimeout(typed);
+    if (now !== workspace()) return; // another one was opened, and this one is kept as it was
+    const made = dialog.returnValue;
+    if (!made) {
+      keep_draft();
+      return on_change();
     }
+    now.task = written();
+    now.draft = now.lesson = "";
+    if (!is_mine(now)) now.document = "";
     on_change();
     if (made === "share") share();
   });

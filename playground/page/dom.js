@@ -38,6 +38,8 @@ export async function copy(field, text = field.value) {
   try { await navigator.clipboard.writeText(text); } catch { document.execCommand("copy"); }
 }
 
+/** For an import that fails where there is no network. */
+export const not_here = () => { throw new Error("this part of the page is not on this device yet: connect to the network once"); };
 /** What few visits need is loaded when somebody asks for it, once. */
 export function on_demand(load) {
   let loaded = null;

@@ -2,7 +2,7 @@
 
 import { $, show_trouble } from "./dom.js";
 
-/** `language` checks while somebody types, `machine` runs; `on_machine_gone()` is called where the second has ended.
+/** `language` checks while somebody types, `machine` runs; `on_machine_gone(words)` is called where the second has ended, with the reason.
  *  Gives `checks()`: whether the first runs, as far as is known. */
 export function watch_engines({ language, machine, on_machine_gone }) {
   const broken = new Set();
@@ -10,7 +10,7 @@ export function watch_engines({ language, machine, on_machine_gone }) {
     let lives = 3; // one that has run, and ends, is begun again
     let has_run = false;
     client.on("broken", ({ message }) => {
-      if (client === machine) on_machine_gone();
+      if (client === machine) on_machine_gone(message);
       if (has_run && lives-- > 0) return client.restart();
       broken.add(client);
       show_trouble("engine", `orb's engine is not running: ${message}. Nothing can be checked or run until it is.`);

@@ -24,9 +24,13 @@ export function set_up_mine({ store, workspace, on_open, begin }) {
     fold.addEventListener("toggle", async () => {
       if (!fold.open || list.children.length) return;
       const rows = await store.versions(id);
-      list.append(...rows.length ? rows.map(row => {
+      const labels = rows.map(row => when(row.changed)), label = i => {
+        const older = labels.slice(i + 1).filter(one => one === labels[i]).length; // within one second
+        return older ? `${labels[i]} (${older + 1})` : labels[i];
+      };
+      list.append(...rows.length ? rows.map((row, i) => {
         const { files, active } = row.workspace, text = files[row.workspace.main || active] ?? "";
-        return element("li", {}, button(when(row.changed), () => open(row, id, title, `“${title}”, as it was on ${when(row.changed)}.`), { class: "link" }),
+        return element("li", {}, button(label(i), () => open(row, id, title, `“${title}”, as it was on ${labels[i]}.`), { class: "link" }),
           element("span", { class: "hint" }, ` ${text.split("\n").length} lines`));
       }) : [element("li", { class: "hint" }, "none")]);
     });

@@ -43,6 +43,11 @@ export function first_steps({ on_next }) {
       $("task").classList.toggle("first", at >= 0);
       if (at >= 0) draw();
     },
+    /** Whether the steps are what the task is now; drawn anew where they are. */
+    draw_again() {
+      if (at >= 0) draw();
+      return at >= 0;
+    },
     ran() { done(at === 2 ? 2 : 0); },
     changed() { done(1); },
   };

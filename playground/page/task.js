@@ -30,12 +30,12 @@ export function show_own_task({ task }) {
   $("task-text").scrollTop = 0;
   $("dots").replaceChildren();
 }
-/** The buttons beside a task. */
+/** The buttons beside a task, and those that make a lesson: what somebody has handed in is there to be looked at. */
 export function show_class_buttons(workspace) {
   const own = !!workspace.task && !workspace.lesson;
   for (const id of ["lesson-before", "lesson-next", "solution"]) $(id).classList.toggle("gone", own);
   $("task-edit").hidden = !own || !is_mine(workspace) || !!workspace.name;
-  // What somebody has handed in is there to be looked at.
+  $("share-lesson").hidden = $("lesson-write").hidden = !!workspace.name;
   $("hand-in").hidden = !(workspace.lesson || own) || !!workspace.name || !tests_of(workspace).length;
 }
 

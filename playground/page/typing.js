@@ -14,10 +14,11 @@ import test from "../../docs/editors/vscode/orbtest.language-configuration.json"
 const configurations = { __proto__: null, bas, macro, orb, stimulus, test };
 const step = "  ";
 
-/** Which lines of a language begin a block (`more`), and which end or part one (`less`); null where none does. */
+const pattern_of = ({ pattern, flags }) => new RegExp(pattern, flags);
+/** Which lines of a language begin a block (`more`), and which end or divide one (`less`); null where there are no blocks. */
 export function blocks_of(ending) {
-  const { increaseIndentPattern: more, decreaseIndentPattern: less } = configurations[ending]?.indentationRules ?? {};
-  return more ? { more: new RegExp(more), less: new RegExp(less ?? "(?!)") } : null;
+  const rules = configurations[ending]?.indentationRules;
+  return rules ? { more: pattern_of(rules.increaseIndentPattern), less: pattern_of(rules.decreaseIndentPattern) } : null;
 }
 
 const blanks_before = text => /^\s*/.exec(text)[0];
@@ -29,8 +30,8 @@ export function indentation(here, above, { more, less }) {
       const opens = more.test(line), closes = less.test(line);
       if (closes && !opens) ++inner;
       else if (opens && !closes && --inner < 0)
-        // What parts a `select` stands within it.
-        return blanks_before(line) + (more.test(here) && /^\s*select\b/.test(line) ? step : "");
+        // What divides a `select` stands within it.
+        return blanks_before(line) + (more.test(here) && /^\s*select\b/i.test(line) ? step : "");
     }
     return "";
   }
@@ -42,7 +43,7 @@ export function indentation(here, above, { more, less }) {
 function* lines_above(doc, number) {
   while (--number > 0) yield doc.line(number).text;
 }
-/** Moves a line back that ends a block or parts one, and in again when it turns out to be another: `next`, `nextval`. */
+/** Moves a line back that ends a block or divides one, and in again when it turns out to be another: `next`, `nextval`. */
 const follow_block = blocks => EditorState.transactionFilter.of(typed => {
   if (!typed.isUserEvent("input.type") && !typed.isUserEvent("input.complete")) return typed;
   const doc = typed.newDoc, { head } = typed.newSelection.main, line = doc.lineAt(head), own = blanks_before(line.text);
@@ -60,8 +61,9 @@ const new_line = blocks => ({ state, dispatch }) => {
   if (ranges.length > 1 || !main.empty) return false;
   const line = state.doc.lineAt(main.head), before = line.text.slice(0, main.head - line.from), after = line.text.slice(main.head - line.from);
   const next = indentation(after, function* () { yield before; yield* lines_above(state.doc, line.number); }(), blocks);
-  const changes = { from: main.head, to: main.head + blanks_before(after).length, insert: `\n${next}` };
-  dispatch(state.update({ changes, selection: { anchor: main.head + 1 + next.length }, scrollIntoView: true, userEvent: "input" }));
+  const from = before.trim() ? main.head : line.from; // an empty line keeps no blanks
+  const changes = { from, to: main.head + blanks_before(after).length, insert: `\n${next}` };
+  dispatch(state.update({ changes, selection: { anchor: from + 1 + next.length }, scrollIntoView: true, userEvent: "input" }));
   return true;
 };
 

@@ -55,7 +55,8 @@ export class Verdicts {
     $("verdict-list").replaceChildren(...tests.map(test => this.row(test, files)));
     $("verdicts").hidden = false;
     this.ball.say(passed === all ? `${words}. Well done!` : words, passed !== all);
-    if (passed === all) this.cheer(this.on_passed());
+    this.changed(this.workspace().files);
+    if (passed === all && !$("verdicts").classList.contains("stale")) this.cheer(this.on_passed());
     $("verdicts").scrollIntoView({ block: "nearest" });
   }
   /** A lesson is done: that deserves a moment, and leads on; `next` is null where it is no lesson. */

@@ -79,11 +79,11 @@ class Languages(unittest.TestCase):
         cls.pseudo.close()
         shutil.rmtree(cls.copy)
 
-    def open(self, where="", tags=("de",), server=None, width=1366, height=768, mobile=False):
+    def open(self, where="", tags=("de",), server=None, width=1366, height=768, mobile=False, before=""):
         page = self.browser.page(fresh=True)
         self.addCleanup(page.close)
         page.resize(width, height, mobile)
-        page.call("Page.addScriptToEvaluateOnNewDocument", source=speaks(*tags))
+        page.call("Page.addScriptToEvaluateOnNewDocument", source=speaks(*tags) + before)
         page.go((server or self.server).url + where)
         page.wait(ready)
         return page
@@ -144,7 +144,7 @@ class Languages(unittest.TestCase):
     def test_who_reads_english_loads_no_other_language(self):
         server = site_server.Site(folder)
         self.addCleanup(server.close)
-        page = self.open(tags=("en-US",), server=server)
+        page = self.open(tags=("en-US",), server=server, before="Object.defineProperty(navigator, 'connection', { value: { saveData: true } });")
         page.evaluate(wait(500))
         self.assertEqual([path for path in server.asked if "languages" in path or "translate" in path], [])
 
@@ -170,7 +170,7 @@ class Languages(unittest.TestCase):
             page.go(self.server.url + "#lesson=lessons/02-one-metre")
             page.wait(ready)
             page.evaluate("document.querySelector('.cm-content').focus(); document.execCommand('insertText', false, 'dealy 1s\\n')")
-            page.wait("document.querySelectorAll('#findings li').length > 0")
+            page.wait("document.querySelector('#findings .fix') !== null")
             words = "[document.getElementById('run-words').textContent, document.getElementById('task-title').textContent.replace(/^\\S+ /, ''), document.querySelector('#findings .error')?.textContent ?? '']"
             first = page.evaluate(words)
             for code, said in (("de", "ist weder ein Befehl"), ("fr", "n'est ni une instruction")):
@@ -183,6 +183,23 @@ class Languages(unittest.TestCase):
             page.evaluate("document.querySelector('.cm-content').focus()")
             page.call("Input.dispatchKeyEvent", type="rawKeyDown", key="z", code="KeyZ", windowsVirtualKeyCode=90, modifiers=2)
             page.wait("!document.querySelector('.cm-content').textContent.includes('dealy')")
+
+    def test_the_last_choice_wins(self):
+        slow = "const own = fetch; window.fetch = async (url, ...more) => { if (`${url}`.includes('de.json')) await new Promise(done => setTimeout(done, 800)); return own(url, ...more); };"
+        page = self.browser.page(fresh=True)
+        self.addCleanup(page.close)
+        page.call("Page.addScriptToEvaluateOnNewDocument", source=speaks("en") + slow)
+        page.go(self.server.url)
+        page.wait(ready)
+        page.evaluate(f"for (const code of ['de', 'fr']) {{ {by_id('language')}.value = code; {by_id('language')}.dispatchEvent(new Event('change')); }}")
+        page.wait("document.documentElement.lang === 'fr'")
+        page.evaluate(wait(1200))
+        self.assertEqual(page.evaluate("document.documentElement.lang"), "fr")
+        self.assertFalse(page.evaluate(f"{by_id('task')}.hidden"))  # the first steps
+
+    def test_whose_a_result_is_in_the_language(self):
+        page = self.open(fragment({"a.orb": "print 1\n"}, name="Ada Lovelace", task="# Hello"))
+        self.assertIn("Abgegeben von „Ada Lovelace“.", page.evaluate(f"{by_id('came')}.textContent"))
 
     def test_a_run_goes_on_in_another_language(self):
         page = self.open(fragment({"a.bas": '10 goroll 0, 60, 1\n20 print "tick"\n30 delay 200\n40 goto 20\n'}), tags=("en",))

@@ -88,7 +88,7 @@ class Typing(unittest.TestCase):
             page.evaluate(wait(400))
             self.assertEqual(page.evaluate(offers), [], words)
         page.call("Input.dispatchKeyEvent", type="rawKeyDown", key=" ", code="Space", windowsVirtualKeyCode=32, modifiers=2)
-        page.wait(f"({offers}).includes('speed')")  # to who asks for them
+        page.wait(f"({offers}).includes('speed')")  # to whoever asks
 
     def test_a_comment_begins_with_one_sign(self):
         self.assertEqual(self.typed("' it's a ball\nprint \"it's\" ' here's one\n"), "' it's a ball\nprint \"it's\" ' here's one\n")
@@ -99,6 +99,8 @@ class Typing(unittest.TestCase):
         self.assertEqual(self.typed(typed), "repeat 4\n  goroll 0, 80, 1\n  if speed > 5 then\n    RGB red\n  else\n    RGB blue\n  end if\nend repeat\nprint 1")
         typed = "select n\ncase 1\nRGB red\ncase 2, 3\nRGB blue\nelse\nprint 1\nend select\nif n = 1 then print 2\nprint 3"
         self.assertEqual(self.typed(typed), "select n\n  case 1\n    RGB red\n  case 2, 3\n    RGB blue\n  else\n    print 1\nend select\nif n = 1 then print 2\nprint 3")
+        self.assertEqual(self.typed("sub a\nREPEAT 4\nprint 1\n\nprint 2\nend repeat\nend sub"), "sub a\n  REPEAT 4\n    print 1\n\n    print 2\n  end repeat\nend sub")
+        self.assertEqual(self.typed("repeat 2\nnextval = 3"), "repeat 2\n  nextval = 3")
         typed = 'test "a"\nexpect print "b"\ntest "c"\nexpect end within 2s'
         self.assertEqual(self.typed(typed, name="a.test"), 'test "a"\n  expect print "b"\ntest "c"\n  expect end within 2s')
         self.assertEqual(self.typed("10 for I = 1 to 3\n20 next I\n", name="a.bas"), "10 for I = 1 to 3\n20 next I\n")

@@ -1,6 +1,6 @@
 // Blocks or text: the switch beside the files, and what stands in the editor's place while blocks are shown.
 
-import { element, button } from "../dom.js";
+import { element, button, not_here } from "../dom.js";
 
 const store = "orb-playground-blocks";
 const remembered = () => { try { return localStorage.getItem(store) === "blocks"; } catch { return false; } };
@@ -41,17 +41,21 @@ export function set_up_blocks({ nonce, language, editor, active, add_file, edito
     canvas.hidden = zooms.hidden = true;
   }
   const style = element("link", { rel: "stylesheet", href: new URL("./blocks.css", import.meta.url).href });
+  let generation = 0; // of views: a language has its own
+  let loose = []; // blocks of the last one that hang nowhere
   async function load() {
+    const own = ++generation;
     document.head.append(style);
-    const missing = () => { throw new Error("this part of the page is not on this device yet: connect to the network once"); };
-    const [{ make_blocks, most_rows }, vocabulary] = await Promise.all([import("./view.js").catch(missing), language.call("words")]);
+    const [{ make_blocks, most_rows }, vocabulary] = await Promise.all([import("./view.js").catch(not_here), language.call("words")]);
     words.hidden = true;
     canvas.hidden = zooms.hidden = false;
-    view = await make_blocks({ parent: canvas, nonce, words: vocabulary, narrow: matchMedia("(max-width: 860px)").matches,
+    const made = await make_blocks({ parent: canvas, nonce, words: vocabulary, loose, narrow: matchMedia("(max-width: 860px)").matches,
       on_text(text, typed) {
         own_text = text;
         editor.put(text, typed);
       } });
+    if (own !== generation) return made.dispose();
+    view = made;
     view.most_rows = most_rows;
   }
   new ResizeObserver(() => { if (!pane.hidden) view?.resize(); }).observe(canvas);
@@ -70,6 +74,7 @@ export function set_up_blocks({ nonce, language, editor, active, add_file, edito
       if (!view) {
         explain(element("p", {}, "Loading the blocks…"));
         await (loading ??= load());
+        if (!view) return; // the page is in another language meanwhile
       }
       const { rows } = await language.call("tree", { files: { [name]: text } });
       if (question !== asked) return; // it has changed meanwhile
@@ -82,8 +87,9 @@ export function set_up_blocks({ nonce, language, editor, active, add_file, edito
       own_text = text;
       view.findings(last_findings);
     } catch (error) {
+      if (question !== asked) return;
       loading = view ? loading : null;
-      if (question === asked) explain(element("p", {}, `The blocks cannot be shown: ${error.message}. The program is under Text.`));
+      explain(element("p", {}, `The blocks cannot be shown: ${error.message}. The program is under Text.`));
     }
   }
   async function lift() {
@@ -120,7 +126,8 @@ export function set_up_blocks({ nonce, language, editor, active, add_file, edito
     open() { own_text = null; show({ fresh: true }); },
     /** The page is in another language: the words of a block are those that it was made with. */
     say_anew() {
-      view?.dispose();
+      loose = view?.dispose() ?? loose;
+      ++generation;
       view = loading = null;
       show({ fresh: true });
     },

@@ -8,6 +8,7 @@ import { load_rows } from "./rows.js";
 import { write } from "./write.js";
 import { theme_of } from "./look.js";
 import { drawers, toolbox_of } from "./toolbox.js";
+import { not_here } from "../dom.js";
 
 export { most_rows } from "./rows.js";
 
@@ -32,10 +33,10 @@ function with_nonce(nonce, deed) {
 
 const gap = 40;
 
-/** Blocks in the language of the page. `on_text(text, typed)`: the blocks say something else now; `typed`: somebody is still
+/** Blocks in the language of the page. `loose`: saved ones, which hang nowhere; `on_text(text, typed)`: the blocks say something else now; `typed`: somebody is still
  *  typing. */
-export async function make_blocks({ parent, nonce, words, narrow, on_text }) {
-  Blockly.setLocale(await (messages[document.documentElement.lang] ?? (() => import("blockly/msg/en")))());
+export async function make_blocks({ parent, nonce, words, narrow, loose, on_text }) {
+  Blockly.setLocale(await (messages[document.documentElement.lang] ?? (() => import("blockly/msg/en")))().catch(not_here));
   define_blocks(Blockly, words);
   let places = new Map(); // of lines of the text: the blocks that stand for them
   let loading = false, written = null, planned = false;
@@ -52,6 +53,7 @@ export async function make_blocks({ parent, nonce, words, narrow, on_text }) {
   for (const [name, , contents] of list)
     if (typeof contents === "function") workspace.registerToolboxCategoryCallback(name, contents);
 
+  const loose_blocks = () => workspace.getTopBlocks(false).filter(block => !is_part(block)).map(block => Blockly.serialization.blocks.save(block, { addCoordinates: true }));
   const is_part = block => block.type === "program" || block.kind.routine;
   /** Blocks that hang nowhere are no part of the program, and look like it. */
   function mark_loose() {
@@ -119,7 +121,8 @@ export async function make_blocks({ parent, nonce, words, narrow, on_text }) {
   const look = () => workspace.setTheme(theme_of(Blockly, document.documentElement));
   const observer = new MutationObserver(look);
   observer.observe(document.documentElement, { attributes: true, attributeFilter: ["data-theme"] });
-  matchMedia("(prefers-color-scheme: dark)").addEventListener("change", look);
+  const dark = matchMedia("(prefers-color-scheme: dark)");
+  dark.addEventListener("change", look);
 
   const shown = new Map(); // the findings that blocks show
   return {
@@ -127,7 +130,7 @@ export async function make_blocks({ parent, nonce, words, narrow, on_text }) {
     show(text, rows, { fresh }) {
       const view = fresh ? null : { x: workspace.scrollX, y: workspace.scrollY };
       const tops = fresh ? [] : workspace.getTopBlocks(false);
-      const loose = tops.filter(block => !is_part(block)).map(block => Blockly.serialization.blocks.save(block, { addCoordinates: true }));
+      const hanging = [...loose.splice(0), ...fresh ? [] : loose_blocks()];
       const kept = new Map(tops.filter(block => moved.has(key_of(block)) || !is_part(block)).map(block => [key_of(block), block.getRelativeToSurfaceXY()]));
       Blockly.hideChaff();
       loading = true;
@@ -137,7 +140,7 @@ export async function make_blocks({ parent, nonce, words, narrow, on_text }) {
         without_events(() => {
           workspace.clear();
           places = load_rows(Blockly, workspace, rows);
-          for (const state of loose) Blockly.serialization.blocks.append(state, workspace);
+          for (const state of hanging) Blockly.serialization.blocks.append(state, workspace);
           mark_loose();
         });
         Blockly.renderManagement.triggerQueuedRenders(workspace);
@@ -187,7 +190,14 @@ export async function make_blocks({ parent, nonce, words, narrow, on_text }) {
       while (block && ![...places.values()].includes(block.id)) block = block.getParent?.();
       return block ? [...places].find(([, id]) => id === block.id)[0] : 0;
     },
-    dispose: () => workspace.dispose(),
+    /** Gives the blocks that hang nowhere, for the next one. */
+    dispose() {
+      const left = loose_blocks();
+      observer.disconnect();
+      dark.removeEventListener("change", look);
+      workspace.dispose();
+      return left;
+    },
     zoom: step => workspace.zoomCenter(step),
     resize: () => Blockly.svgResize(workspace),
     workspace: () => workspace,
