@@ -189,7 +189,8 @@ const comparable = message => message.replace(/^orb: (error: )?/, "").replace(/,
 async function native_outcome({ files, names, area, run }, recording) {
   const { code, err } = await orb(["upload", ...names, "--port", "replay://recording", ...area ? ["--area", area] : [], ...run ? ["--run"] : []],
     { ...files, recording: recording.join("\n") + "\n" });
-  return { code, message: comparable(err.trim().split("\n").pop()) };
+  // That the program has started is seen on the page by what the robot prints.
+  return { code, message: comparable(err.trim().split("\n").filter(line => !/^(orb: )?started$/.test(line)).pop()) };
 }
 const async_engine = { call: async (method, params) => engine.call(method, params) };
 for (const fault of faults)
