@@ -7,13 +7,24 @@ const key = "orb-language";
 const remembered = () => { try { return localStorage.getItem(key); } catch { return null; } };
 const wanted = () => [remembered(), ...navigator.languages.map(tag => tag.split("-")[0])].find(code => Object.hasOwn(languages, code ?? "")) ?? "en";
 
+/** The translations of a language; none for English. */
+async function texts_of(code) {
+  if (code === "en") return {};
+  const answer = await fetch(`languages/${code}.json`);
+  if (!answer.ok) throw new Error(`${answer.url}: ${answer.status}`);
+  return answer.json();
+}
 
-/** Says the page in that language; where its texts cannot be loaded, it stays as it is. */
+let asked = 0;
+/** Says the page in that language, unless another is asked for meanwhile; where its texts cannot be loaded, it stays as it
+ *  is. */
 async function show_in(code) {
+  const question = ++asked;
   try {
-    const { translate } = await import("./translate.js");
-    await translate(code, code === "en" ? "" : `languages/${code}.json`);
+    const [{ translate }, texts] = await Promise.all([import("./translate.js"), texts_of(code)]);
+    if (question === asked) translate(code, texts);
   } catch {
+    if (question !== asked) return;
     say(`${languages[code]} could not be loaded. Check your network connection, then choose it again under Menu.`, "bad");
     $("language").value = document.documentElement.lang;
   }

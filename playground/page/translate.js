@@ -46,15 +46,8 @@ const observer = new MutationObserver(records => {
     else for (const node of addedNodes) all_of(node);
 });
 
-let asked = 0;
-/** Says the page in that language from now on, unless another has been asked for meanwhile. `address`: of its texts; none
- *  for English. */
-export async function translate(code, address) {
-  const question = ++asked;
-  const answer = address && await fetch(address);
-  if (answer && !answer.ok) throw new Error(`${address}: ${answer.status}`);
-  const texts = answer ? await answer.json() : {};
-  if (question !== asked) return;
+/** Says the page in that language from now on. `texts`: English ones and their translations; none for English. */
+export function translate(code, texts) {
   find = make_catalogue(texts);
   speak_with(text => find(text) ?? text);
   document.documentElement.lang = code;

@@ -750,6 +750,7 @@ class Playground(unittest.TestCase):
         page.wait(f"{verdict}?.startsWith('The program already passes')", 20)
         self.escape(page)
         page.wait(f"!{by_id('lesson-dialog')}.open")
+        page.wait("document.getElementById('tab-robot.test') !== null")
         page.evaluate(click("tab-robot.test"))
         page.wait(f"({text}).includes('print \"?\"')")
 
