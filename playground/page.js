@@ -8,7 +8,7 @@ import { addresses_in, id_of, parts_of, show_class_buttons, show_own_task } from
 import { set_up_bubble } from "./page/bubble.js";
 import { set_up_blocks } from "./page/blocks/toggle.js";
 import { Verdicts } from "./page/verdicts.js";
-import { $, announce, element, button, say, download, with_code, on_demand, show_trouble } from "./page/dom.js";
+import { $, announce, close_dialogs, element, button, say, download, with_code, on_demand, show_trouble } from "./page/dom.js";
 import { watch_engines } from "./page/engines.js";
 import { speak } from "./page/language.js";
 import { as_workspace, lesson_after, load_library, mark_done, show_library, show_task } from "./page/library.js";
@@ -18,7 +18,7 @@ import { fill_sheet } from "./page/sheet.js";
 import { first_steps, welcome } from "./page/steps.js";
 import { Store, new_id } from "./page/store.js";
 import { set_up_world } from "./page/world.js";
-import { AddressError, checked, empty, from_fragment, keep, kept, kind_of, limit_words, limits, name_trouble, program_of, tests_of, ending_of, kinds } from "./page/workspace.js";
+import { AddressError, checked, empty, first_error, from_fragment, keep, kept, kind_of, limit_words, limits, name_trouble, program_of, same_files, tests_of, ending_of, kinds } from "./page/workspace.js";
 
 // One worker answers while somebody types; the other runs programs and is ended with them.
 const worker_url = new URL("./worker.js", import.meta.url);
@@ -129,9 +129,8 @@ function tell_count() {
 }
 /** What a run was refused for may stand in a file that is not shown. */
 function show_mistakes(document) {
-  const first = document.diagnostics.find(one => one.severity === "error") ?? document.diagnostics[0];
-  const name = first?.file.replace(/^\/+/, "");
-  if (name && Object.hasOwn(workspace.files, name)) go_to(name, first.line);
+  const first = first_error(document);
+  if (first && Object.hasOwn(workspace.files, first.name)) go_to(first.name, first.line);
 }
 function go_to(name, line) {
   if (Object.hasOwn(workspace.files, name)) show_file(name);
@@ -183,7 +182,7 @@ function show_file(name) {
   keep_soon();
 }
 function open_workspace(next) {
-  for (const open of document.querySelectorAll("dialog[open]")) open.close();
+  close_dialogs();
   editor.reset();
   workspace = next;
   workspace.title ||= workspace.main || program_of(workspace, workspace.active) || workspace.active;
@@ -248,14 +247,13 @@ const pick = item => resume({ ...checked(as_workspace(item)), document: item.id,
 /** Opens what others begin with, as it was left where somebody has worked on it. */
 async function resume(fresh, what) {
   const mine = await document_of(fresh.document);
-  if (!mine || same_files(mine, fresh)) exchange(fresh, `${what} is open.`);
+  if (!mine || same_files(mine.files, fresh.files)) exchange(fresh, `${what} is open.`);
   else exchange({ ...mine, before: "" }, `${what}, as you left it.`, [button("Start over", () => {
     mark_version();
     exchange(fresh, `${what} from the beginning. What you had is among the earlier versions under Mine.`);
   })]);
   show_view("work");
 }
-const same_files = (one, other) => JSON.stringify(Object.entries(one.files).sort()) === JSON.stringify(Object.entries(other.files).sort());
 function show_solution({ solution, main }) {
   mark_version();
   show_file(main);

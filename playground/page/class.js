@@ -1,9 +1,9 @@
 // What a teacher and a class need: a lesson is written, a result handed in. Both are addresses, and nothing is stored
 // anywhere.
 
-import { $, button, copy, download, element, with_code } from "./dom.js";
+import { $, button, close_dialogs, copy, download, element, with_code } from "./dom.js";
 import { is_mine, parts_of } from "./task.js";
-import { kinds, program_of, tests_of } from "./workspace.js";
+import { first_error, kinds, program_of, tests_of } from "./workspace.js";
 
 /** `on_change()`: the task is another now; `write_file(name, text)`, `keep()`; `share(workspace)` shows an address,
  *  `address_of(workspace)` makes one; `mistakes(results, files)` is that of Verdicts. */
@@ -43,8 +43,8 @@ export function set_up_class({ machine, workspace, on_change, write_file, keep, 
       if (findings) throw { findings };
       return [summary.passed === summary.tests ? "The program already passes: what is left for pupils to do?" : `The program passes ${summary.passed} of ${summary.tests}.`];
     } catch ({ message, findings }) {
-      const first = findings?.diagnostics.find(one => one.severity === "error");
-      return first ? [element("code", {}, first.file.replace(/^\/+/, "")), " ", `line ${first.line}`, ": ", with_code(first.message)] : [message];
+      const first = findings && first_error(findings);
+      return first ? [element("code", {}, first.name), " ", `line ${first.line}`, ": ", with_code(first.message)] : [message];
     }
   }
   function make_test(program) {
@@ -70,7 +70,7 @@ export function set_up_class({ machine, workspace, on_change, write_file, keep, 
   const written = () => `# ${$("lesson-title").value.trim() || "Lesson"}\n\n${$("lesson-text").value.trim()}\n`;
   const begun = ({ task, title }) => task || `# ${title}\n\n`;
   function write() {
-    for (const open of document.querySelectorAll("dialog[open]")) open.close();
+    close_dialogs();
     now = workspace();
     fill(now.draft || begun(now));
     $("lesson-draft").hidden = !now.draft;

@@ -32,6 +32,8 @@ export function say(words, look = "") {
   $("status").className = look;
 }
 
+export const close_dialogs = () => { for (const open of document.querySelectorAll("dialog[open]")) open.close(); };
+
 /** Copies what a field shows, which is selected from then on. */
 export async function copy(field, text = field.value) {
   field.select();

@@ -41,9 +41,8 @@ export function first_steps({ on_next }) {
     show({ document }) {
       at = document === "welcome" ? 0 : -1;
       $("task").classList.toggle("first", at >= 0);
-      if (at >= 0) draw();
     },
-    /** Whether the steps are what the task is now; drawn anew where they are. */
+    /** Whether the steps are what the task is now; they are drawn where they are. */
     draw_again() {
       if (at >= 0) draw();
       return at >= 0;

@@ -16,14 +16,14 @@ const step = "  ";
 
 const pattern_of = ({ pattern, flags }) => new RegExp(pattern, flags);
 /** Which lines of a language begin a block (`more`), and which end or divide one (`less`); null where there are no blocks. */
-export function blocks_of(ending) {
+function blocks_of(ending) {
   const rules = configurations[ending]?.indentationRules;
   return rules ? { more: pattern_of(rules.increaseIndentPattern), less: pattern_of(rules.decreaseIndentPattern) } : null;
 }
 
 const blanks_before = text => /^\s*/.exec(text)[0];
 /** The blanks before the line `here`. `above`: the lines above it, the nearest first. */
-export function indentation(here, above, { more, less }) {
+function indentation(here, above, { more, less }) {
   if (less.test(here)) {
     let inner = 0; // blocks that end between this line and where its own begins
     for (const line of above) {

@@ -1,6 +1,7 @@
 // Tests: their verdicts, and what failed played back.
 
 import { $, element, button } from "./dom.js";
+import { same_files } from "./workspace.js";
 
 const signs = { __proto__: null, passed: "✓", failed: "✗", error: "!" };
 
@@ -40,8 +41,8 @@ export class Verdicts {
   }
   /** A verdict belongs to a text: it says so where that is another now. */
   changed(files) {
-    if ($("verdicts").hidden || !this.tested) return;
-    const same = JSON.stringify(files) === JSON.stringify(this.tested.files);
+    if ($("verdicts").hidden) return;
+    const same = same_files(files, this.tested.files);
     $("verdicts-title").textContent = same ? this.tested.words : `Before your change: ${this.tested.words}`;
     $("verdicts").classList.toggle("stale", !same);
   }
@@ -49,8 +50,6 @@ export class Verdicts {
     const { tests: all, passed, points, pointsOf } = summary;
     const words = `${passed} of ${all} tests passed${pointsOf ? `, ${points} of ${pointsOf} points` : ""}`;
     this.tested = { files, words };
-    $("verdicts-title").textContent = words;
-    $("verdicts").classList.remove("stale");
     $("verdicts").classList.toggle("all-passed", passed === all);
     $("verdict-list").replaceChildren(...tests.map(test => this.row(test, files)));
     $("verdicts").hidden = false;

@@ -63,6 +63,15 @@ export function checked(data) {
   return made;
 }
 
+export const same_files = (one, other) =>
+  Object.keys(one).length === Object.keys(other).length && Object.entries(one).every(([name, text]) => other[name] === text);
+
+/** The error that a document of `check` names first: `{name, line, message}`; undefined where it has none. */
+export function first_error({ diagnostics }) {
+  const first = diagnostics.find(one => one.severity === "error");
+  return first && { name: first.file.replace(/^\/+/, ""), line: first.line, message: first.message };
+}
+
 /** The program that a file belongs to: itself, or for a test the one beside it. */
 export function program_of({ files, main }, name) {
   if (kind_of(name)?.program) return name;
