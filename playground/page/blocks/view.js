@@ -117,6 +117,13 @@ export async function make_blocks({ parent, nonce, words, narrow, loose, on_text
   }
   const key_of = block => block.kind.routine ? block.getFieldValue("NAME").toLowerCase() : block.id;
 
+  /** The line of the block that is chosen; 0 for none. */
+  function chosen_line() {
+    let block = Blockly.getSelected();
+    while (block && ![...places.values()].includes(block.id)) block = block.getParent?.();
+    return block ? [...places].find(([, id]) => id === block.id)[0] : 0;
+  }
+
   let marked = null; // the block that runs
   const look = () => workspace.setTheme(theme_of(Blockly, document.documentElement));
   const observer = new MutationObserver(look);
@@ -129,6 +136,7 @@ export async function make_blocks({ parent, nonce, words, narrow, loose, on_text
     /** Shows the rows of a text. What hangs nowhere stays, and who moved a sub finds it there. */
     show(text, rows, { fresh }) {
       const view = fresh ? null : { x: workspace.scrollX, y: workspace.scrollY };
+      const focused = parent.contains(document.activeElement), line = chosen_line();
       const tops = fresh ? [] : workspace.getTopBlocks(false);
       const hanging = [...loose.splice(0), ...fresh ? [] : loose_blocks()];
       const kept = new Map(tops.filter(block => moved.has(key_of(block)) || !is_part(block)).map(block => [key_of(block), block.getRelativeToSurfaceXY()]));
@@ -151,6 +159,8 @@ export async function make_blocks({ parent, nonce, words, narrow, loose, on_text
         else workspace.scroll(narrow ? 4 : 10, 10);
       } finally {
         loading = false;
+        // The block that had the keys is gone, and the next key, such as Ctrl+Y, is meant for the blocks, too.
+        if (focused) Blockly.getFocusManager().focusNode(workspace.getBlockById(places.get(line) ?? "") ?? workspace);
       }
     },
     findings(list) {
@@ -184,12 +194,7 @@ export async function make_blocks({ parent, nonce, words, narrow, loose, on_text
       workspace.centerOnBlock(id);
       Blockly.getFocusManager().focusNode(block);
     },
-    /** The line of the block that is chosen; 0 for none. */
-    chosen_line() {
-      let block = Blockly.getSelected();
-      while (block && ![...places.values()].includes(block.id)) block = block.getParent?.();
-      return block ? [...places].find(([, id]) => id === block.id)[0] : 0;
-    },
+    chosen_line,
     /** Gives the blocks that hang nowhere, for the next one. */
     dispose() {
       const left = loose_blocks();
