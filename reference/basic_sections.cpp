@@ -3,6 +3,7 @@
 #include "base/text/text.h"
 #include "reference/sections.h"
 #include "spec/basic.h"
+#include "spec/colours.h"
 #include "spec/limits.h"
 #include "structured/text/blocks.h"
 #include "structured/text/words.h"

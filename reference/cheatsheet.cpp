@@ -1,5 +1,6 @@
 #include "reference/sections.h"
 #include "spec/basic.h"
+#include "spec/colours.h"
 #include "spec/limits.h"
 #include "structured/text/words.h"
 

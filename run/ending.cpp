@@ -1,6 +1,7 @@
 #include "base/text/text.h"
 #include "base/text/utf8.h"
 #include "run/run.h"
+#include "spec/colours.h"
 
 #include <algorithm>
 #include <chrono>

@@ -1,7 +1,7 @@
 #pragma once
 
 // The orbBasic language of the robot as tables: statements, functions, system variables, operators,
-// errors, flags and colours. The rows, and what their columns mean, are in spec/basic.def.
+// errors and flags. The rows, and what their columns mean, are in spec/basic.def.
 
 #include "spec/limits.h"
 
@@ -294,20 +294,6 @@ inline constexpr auto basic_flags = std::to_array<BasicFlagInfo>({
 #include "spec/basic.def"
 });
 
-/// The predefined colours of LEDC; the index into the table is the argument.
-struct LedColour {
-  std::uint8_t code;
-  std::string_view name;
-  std::uint8_t red;
-  std::uint8_t green;
-  std::uint8_t blue;
-};
-
-inline constexpr auto led_colours = std::to_array<LedColour>({
-#define ORB_LED_COLOUR(code, name, red, green, blue) {code, name, red, green, blue},
-#include "spec/basic.def"
-});
-
 /// Words that are part of other statements.
 inline constexpr auto particles =
     std::to_array<std::string_view>({"then", "else", "and", "or", "to", "step"});
@@ -422,9 +408,6 @@ static_assert(basic_words_are_unique());
 consteval bool basic_codes_ascend() {
   for (std::size_t i = 0; i < basic_errors.size(); ++i)
     if (static_cast<std::size_t>(basic_errors[i].error) != i + 1)
-      return false;
-  for (std::size_t i = 0; i < led_colours.size(); ++i)
-    if (led_colours[i].code != i)
       return false;
   return true;
 }

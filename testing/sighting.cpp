@@ -1,6 +1,7 @@
 #include "testing/sighting.h"
 
 #include "base/text/utf8.h"
+#include "spec/colours.h"
 
 #include <algorithm>
 #include <cmath>

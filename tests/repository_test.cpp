@@ -33,7 +33,7 @@ const std::vector<Room> rooms = {
     {2, "disk", {"base"}},
     {2, "protocol", {"spec", "base"}},
     {2, "bytecode", {"spec", "base"}},
-    {2, "repair", {"base"}},
+    {2, "repair", {"spec", "base"}},
     {3, "compiler", {"bytecode", "repair"}},
     {3, "assembler", {"protocol", "repair"}},
     {4, "structured", {"compiler", "assembler"}},

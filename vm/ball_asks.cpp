@@ -2,6 +2,7 @@
 
 #include "protocol/payload.h"
 #include "spec/ball.h"
+#include "spec/colours.h"
 #include "spec/macro.h"
 #include "spec/unit.h"
 

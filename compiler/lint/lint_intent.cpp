@@ -4,6 +4,7 @@
 #include "compiler/lint/letters.h"
 #include "compiler/lint/reading.h"
 #include "compiler/text/rules.h"
+#include "spec/colours.h"
 #include "spec/limits.h"
 
 #include <algorithm>

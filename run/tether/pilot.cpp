@@ -4,6 +4,7 @@
 
 #include "spec/ball.h"
 #include "spec/basic.h"
+#include "spec/colours.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,7 @@
 #include "structured/text/words.h"
 
+#include "spec/colours.h"
+
 namespace orb::structured {
 namespace {
 
@@ -47,31 +49,6 @@ constexpr auto table = [] {
   return all;
 }();
 
-struct Colour {
-  std::string_view name;
-  std::uint32_t value;
-};
-
-constexpr auto colours = std::to_array<Colour>({
-    {"black", 0x000000},
-    {"silver", 0xC0C0C0},
-    {"gray", 0x808080},
-    {"white", 0xFFFFFF},
-    {"maroon", 0x800000},
-    {"red", 0xFF0000},
-    {"purple", 0x800080},
-    {"fuchsia", 0xFF00FF},
-    {"green", 0x008000},
-    {"lime", 0x00FF00},
-    {"olive", 0x808000},
-    {"yellow", 0xFFFF00},
-    {"navy", 0x000080},
-    {"blue", 0x0000FF},
-    {"teal", 0x008080},
-    {"aqua", 0x00FFFF},
-    {"orange", 0xFFA500},
-});
-
 } // namespace
 
 Word find_word(std::string_view text) {
@@ -96,16 +73,17 @@ std::string_view spelling(Word word) {
 }
 
 std::optional<std::uint32_t> find_colour(std::string_view name) {
-  for (const auto& colour : colours)
-    if (equal_words(colour.name, name))
-      return colour.value;
+  for (const auto& colour : spec::colours)
+    if (!colour.name.empty() && equal_words(colour.name, name))
+      return colour.rgb;
   return std::nullopt;
 }
 
 std::vector<std::string_view> colour_names() {
   std::vector<std::string_view> names;
-  for (const auto& colour : colours)
-    names.push_back(colour.name);
+  for (const auto& colour : spec::colours)
+    if (!colour.name.empty())
+      names.push_back(colour.name);
   return names;
 }
 

@@ -99,7 +99,7 @@ constexpr bool is_function(Word word) {
 /// A word in its documented spelling; empty for a name.
 std::string_view spelling(Word word);
 
-/// 0xRRGGBB of a colour name of CSS: the sixteen basic ones and `orange`.
+/// 0xRRGGBB of the colour of that name.
 std::optional<std::uint32_t> find_colour(std::string_view name);
 
 /// The names of all colours.

@@ -1,5 +1,7 @@
 #include "testing/text/file_reader.h"
 
+#include "spec/colours.h"
+
 namespace orb::testing {
 
 void FileReader::read_expectation(Cursor& cursor, Span span, std::uint32_t line, bool never) {
@@ -192,12 +194,9 @@ void FileReader::read_color(Cursor& cursor, Expectation& one) {
   if (one.colors.empty() && cursor.hash_span().size() > 1)
     return read_bad_hex(cursor);
   if (one.colors.empty()) {
-    std::vector<std::string_view> known;
+    auto known = structured::colour_names();
     for (const auto& row : spec::led_colours)
       known.push_back(row.name);
-    for (const auto* name :
-         {"silver", "gray", "maroon", "fuchsia", "lime", "olive", "navy", "teal", "aqua", "black"})
-      known.emplace_back(name);
     return cursor.fail(rules::Value,
                        cursor.at_end() ? std::string("missing colour")
                                        : fmt::format("`{}` is not a colour", one.text),

@@ -2,6 +2,7 @@
 
 #include "base/source.h"
 #include "spec/basic.h"
+#include "spec/colours.h"
 #include "structured/layout/layout.h"
 #include "structured/text/blocks.h"
 #include "structured/text/parse.h"

@@ -5,6 +5,7 @@
 #include "editor/text.h"
 #include "report/course.h"
 #include "spec/basic.h"
+#include "spec/colours.h"
 #include "spec/firmware.h"
 #include "testing/suite.h"
 
