@@ -122,8 +122,9 @@ void Names::read_attribute(AssembledMacro& defined, std::string_view attribute,
 std::optional<std::uint8_t> Names::header_byte(const Value& value, int minimum,
                                                std::string_view what) {
   const auto* found = number(value);
-  if (found != nullptr && found->unit == Unit::None && found->thousandths % whole == 0 &&
-      found->thousandths >= minimum * whole && found->thousandths <= UINT8_MAX * whole)
+  if (found != nullptr && found->is_known && found->unit == nullptr &&
+      found->thousandths % whole == 0 && found->thousandths >= minimum * whole &&
+      found->thousandths <= UINT8_MAX * whole)
     return static_cast<std::uint8_t>(found->thousandths / whole);
   findings_.add(rules::Header, value.span,
                 fmt::format("{} {} to {}, found `{}`", what, minimum, UINT8_MAX,

@@ -16,30 +16,16 @@ using spec::MacroUnit;
 
 namespace {
 
-std::string_view unit_word(Unit unit) {
-  switch (unit) {
-  case Unit::None:
-  case Unit::Unknown: return "";
-  case Unit::Milliseconds: return "ms";
-  case Unit::Seconds: return "s";
-  case Unit::Degrees: return "deg";
-  }
-  return "";
-}
-
 /// How many thousandths of the operand's own unit one of `unit` is; 0 where they do not go
 /// together.
-std::int64_t scale(Unit unit, MacroUnit own) {
-  if (unit == Unit::None)
+std::int64_t scale(const Unit* unit, MacroUnit own) {
+  if (unit == nullptr)
     return whole;
-  const std::int64_t ms = unit == Unit::Milliseconds ? 1 : unit == Unit::Seconds ? second_ms : 0;
-  switch (own) {
-  case MacroUnit::None: return 0;
-  case MacroUnit::Milliseconds: return whole * ms;
-  case MacroUnit::Ticks10ms: return whole * ms / 10;
-  case MacroUnit::Degrees: return unit == Unit::Degrees ? whole : 0;
-  }
-  return 0;
+  const auto step = own == MacroUnit::Milliseconds ? unit::ms.steps
+                    : own == MacroUnit::Ticks10ms  ? 10 * unit::ms.steps
+                                                   : unit::deg.steps;
+  const auto measure = own == MacroUnit::Degrees ? Measure::Angle : Measure::Time;
+  return own == MacroUnit::None || unit->measure != measure ? 0 : whole * unit->steps / step;
 }
 
 std::string range_of(const MacroOperand& operand) {
@@ -148,7 +134,8 @@ const spec::MacroCommandInfo* Operands::roll_for(const Value& delay) const {
   const auto& roll = spec::info(MacroCommand::Roll);
   const auto& roll2 = spec::info(MacroCommand::Roll2);
   const auto* number = names_.number(delay);
-  const auto per = number == nullptr ? 0 : scale(number->unit, roll2.operand[2].unit);
+  const auto per =
+      number == nullptr || !number->is_known ? 0 : scale(number->unit, roll2.operand[2].unit);
   return per > 0 && number->thousandths / whole * per / whole > roll.operand[2].maximum ? &roll2
                                                                                         : &roll;
 }
@@ -241,7 +228,7 @@ std::optional<std::int32_t> Operands::to_number(const Value& number, Span span,
                                                 const MacroOperand& operand,
                                                 std::string_view command) {
   const auto per = scale(number.unit, operand.unit);
-  if (number.unit == Unit::Unknown || per == 0) {
+  if (!number.is_known || per == 0) {
     wrong_unit(number, span, operand, command);
     return std::nullopt;
   }
@@ -264,7 +251,7 @@ std::optional<std::int32_t> Operands::to_number(const Value& number, Span span,
 
 void Operands::wrong_unit(const Value& number, Span span, const MacroOperand& operand,
                           std::string_view command) {
-  if (number.unit == Unit::Unknown) {
+  if (!number.is_known) {
     const auto word = program_.text_of(number.span);
     const bool hex = word.ends_with('h') || word.ends_with('H');
     findings_.add(rules::WrongUnit, span, fmt::format("`{}` is not a number", word),
@@ -274,7 +261,7 @@ void Operands::wrong_unit(const Value& number, Span span, const MacroOperand& op
   }
   findings_.add(rules::WrongUnit, span,
                 fmt::format("`{}` of `{}` does not take the unit `{}`", operand.name, command,
-                            unit_word(number.unit)),
+                            number.unit->word),
                 fmt::format("it must be {}", range_of(operand)));
 }
 

@@ -47,13 +47,7 @@ MacroTiming time_macro(const Assembly& assembly, std::size_t macro) {
 }
 
 std::string print_time(std::int64_t ms) {
-  if (ms < second_ms)
-    return fmt::format("{} ms", ms);
-  auto text = fmt::format("{}.{:03}", ms / second_ms, ms % second_ms);
-  text.erase(text.find_last_not_of('0') + 1);
-  if (text.back() == '.')
-    text.pop_back();
-  return text + " s";
+  return ms < whole ? fmt::format("{} ms", ms) : thousandths_text(ms) + " s";
 }
 
 std::string to_string(const MacroTiming& timing) {

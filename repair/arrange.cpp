@@ -4,6 +4,7 @@
 #include "base/text/text.h"
 #include "repair/colours.h"
 #include "repair/fill.h"
+#include "repair/units.h"
 #include "repair/word_index.h"
 
 #include <algorithm>
@@ -51,12 +52,10 @@ std::optional<Quantity> unit_of(const Token& token) {
 
 /// A number in thousandths; nothing where it is finer or longer.
 std::optional<std::int64_t> thousandths_of(std::string_view text) {
-  if (text.size() > 2 && text[0] == '0' && to_lower(text[1]) == 'x') {
-    const auto value = parse_number<std::uint32_t>(text.substr(2), 16);
-    return value ? std::optional<std::int64_t>(*value * one) : std::nullopt;
-  }
+  if (const auto value = hexadecimal(text))
+    return *value <= UINT32_MAX ? std::optional(*value * one) : std::nullopt;
   constexpr std::size_t longest = 9; // digits
-  return text.substr(0, text.find('.')).size() <= longest ? decimal(text) : std::nullopt;
+  return text.substr(0, text.find('.')).size() <= longest ? thousandths_in(text) : std::nullopt;
 }
 
 /// Reads values from left to right; `*`, `/`, `+` and `-` compute.
@@ -90,7 +89,7 @@ public:
       if (!right || !agree(*left, *right))
         return std::nullopt;
       left->thousandths += sign * right->thousandths;
-      if (left->measure == Measure::None)
+      if (left->measure == Measure::Number)
         left->measure = right->measure;
     }
     return left;
@@ -99,7 +98,7 @@ public:
 private:
   /// Whether two can be added.
   static bool agree(const Quantity& a, const Quantity& b) {
-    return a.measure == b.measure || a.measure == Measure::None || b.measure == Measure::None;
+    return a.measure == b.measure || a.measure == Measure::Number || b.measure == Measure::Number;
   }
 
   std::optional<Quantity> product() {
@@ -108,15 +107,15 @@ private:
       const bool times = here().is("*");
       skip();
       const auto right = atom();
-      if (!right || (times ? left->measure != Measure::None && right->measure != Measure::None
-                           : right->measure != Measure::None || right->thousandths == 0))
+      if (!right || (times ? left->measure != Measure::Number && right->measure != Measure::Number
+                           : right->measure != Measure::Number || right->thousandths == 0))
         return std::nullopt;
       if (std::abs(left->thousandths) > most_thousandths ||
           std::abs(right->thousandths) > most_thousandths / one)
         return std::nullopt;
       left->thousandths = times ? left->thousandths * right->thousandths / one
                                 : left->thousandths * one / right->thousandths;
-      if (left->measure == Measure::None)
+      if (left->measure == Measure::Number)
         left->measure = right->measure;
     }
     return left;
@@ -146,7 +145,7 @@ private:
     skip();
     if (!value)
       return std::nullopt;
-    Quantity number{sign * *value, Measure::None};
+    Quantity number{sign * *value, Measure::Number};
     if (at_end())
       return number;
     const bool is_name = next() != nullptr && (next()->is("=") || next()->is(":"));
@@ -166,25 +165,17 @@ private:
   int steps_ = 0;
 };
 
-std::string written_number(std::int64_t thousandths) {
-  auto text = fmt::format("{}{}", thousandths < 0 ? "-" : "", std::abs(thousandths) / one);
-  if (const auto rest = std::abs(thousandths) % one; rest != 0) {
-    text += fmt::format(".{:03}", rest);
-    while (text.back() == '0')
-      text.pop_back();
-  }
-  return text;
-}
-
 /// A quantity as tests and macros write it.
 std::string written(const Quantity& value) {
   switch (value.measure) {
-  case Measure::None: return written_number(value.thousandths);
-  case Measure::Percent: return written_number(value.thousandths) + "%";
-  case Measure::Angle: return written_number(value.thousandths) + "deg";
+  case Measure::Number: return thousandths_text(value.thousandths);
+  case Measure::Percent: return thousandths_text(value.thousandths) + "%";
+  case Measure::Angle: return thousandths_text(value.thousandths) + "deg";
   case Measure::Time:
     return value.thousandths % one == 0 ? time_text(value.thousandths / one)
-                                        : written_number(value.thousandths) + "ms";
+                                        : thousandths_text(value.thousandths) + "ms";
+  case Measure::Length:
+  case Measure::Speed: break;
   }
   return {};
 }
@@ -216,7 +207,7 @@ public:
       if (!value)
         return std::nullopt;
       const bool brims = operand.counts == Counts::Plain && operand.most == UINT8_MAX &&
-                         bound_[i]->word.empty() && bound_[i]->number.measure == Measure::None &&
+                         bound_[i]->word.empty() && bound_[i]->number.measure == Measure::Number &&
                          bound_[i]->number.thousandths > operand.most * one;
       const bool wraps =
           operand.counts == Counts::Degrees && operand.least >= 0 && bound_[i]->word.empty() &&
@@ -233,7 +224,7 @@ public:
       }
     }
     if (extra_ != nullptr)
-      all.wait = extra_->number.measure == Measure::None ? extra_->text : written(extra_->number);
+      all.wait = extra_->number.measure == Measure::Number ? extra_->text : written(extra_->number);
     return all;
   }
 
@@ -341,7 +332,7 @@ private:
         !(several_channels_ && named(token) != nullptr)) {
       for (const auto& [channel, shift] : {std::pair{"red", 16}, {"green", 8}, {"blue", 0}}) {
         const auto value = static_cast<std::int64_t>(*colour >> shift & 0xFF);
-        given_.push_back({channel, {value * one, Measure::None}, {}, std::to_string(value)});
+        given_.push_back({channel, {value * one, Measure::Number}, {}, std::to_string(value)});
       }
       name.clear();
       values.skip();
@@ -372,7 +363,7 @@ private:
       return true;
     }
     if (const auto count = count_of(token); word.empty() && count > 0 && operands_.size() == 1) {
-      given_.push_back({name, {count * one, Measure::None}, {}, std::to_string(count)});
+      given_.push_back({name, {count * one, Measure::Number}, {}, std::to_string(count)});
       name.clear();
       values.skip();
       return true;
@@ -395,7 +386,9 @@ private:
     case Measure::Time: return operand.counts == Counts::Milliseconds;
     case Measure::Angle: return operand.counts == Counts::Degrees;
     case Measure::Percent: return operand.counts == Counts::Plain;
-    case Measure::None: return true;
+    case Measure::Number: return true;
+    case Measure::Length:
+    case Measure::Speed: break;
     }
     return false;
   }
@@ -426,7 +419,7 @@ private:
         std::count_if(operands_.begin(), operands_.end(),
                       [](const Operand& operand) { return operand.counts == Counts::Plain; });
     const auto tells = [plain](const Given& value) { // of which operand it is
-      return value.number.measure != Measure::None &&
+      return value.number.measure != Measure::Number &&
              (value.number.measure != Measure::Percent || plain == 1);
     };
     for (const bool told : {true, false})
@@ -492,16 +485,16 @@ private:
   /// Whether a value stands where only a name or a word of it tells.
   static bool is_plain(const Given* value) {
     return value != nullptr && value->name.empty() && value->word.empty() &&
-           value->number.measure == Measure::None;
+           value->number.measure == Measure::Number;
   }
 
   /// Whether a byte was meant as a part of 1.
   bool is_fraction(const Given& value, const Operand& operand) const {
     if (operand.most != UINT8_MAX || operand.counts == Counts::Milliseconds ||
-        value.number.measure != Measure::None)
+        value.number.measure != Measure::Number)
       return false;
     const auto plain = [](const Given& each) {
-      return each.word.empty() && each.number.measure == Measure::None;
+      return each.word.empty() && each.number.measure == Measure::Number;
     };
     return std::any_of(given_.begin(), given_.end(),
                        [&](const Given& each) {
@@ -527,10 +520,10 @@ private:
       const auto full = number.measure == Measure::Percent ? 100 * one : one;
       return std::to_string((number.thousandths * operand.most + full / 2) / full);
     }
-    if (operand.counts == Counts::Milliseconds && number.measure == Measure::None && !whole)
+    if (operand.counts == Counts::Milliseconds && number.measure == Measure::Number && !whole)
       return written({number.thousandths * one, Measure::Time}); // so many seconds
     constexpr std::int64_t circle = 6284;                        // thousandths of a radian
-    if (!whole && operand.counts == Counts::Degrees && number.measure == Measure::None &&
+    if (!whole && operand.counts == Counts::Degrees && number.measure == Measure::Number &&
         std::abs(number.thousandths) <= circle) {
       constexpr double degrees = 57.29577951308232; // of a radian
       return std::to_string(std::lround(static_cast<double>(number.thousandths) / one * degrees));

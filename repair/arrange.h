@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/units.h"
 #include "repair/tokens.h"
 
 #include <cstdint>
@@ -27,13 +28,11 @@ struct Operand {
   std::string_view usual = {};              ///< what is taken where it lacks; empty: nothing is
 };
 
-enum class Measure : std::uint8_t { None, Time, Angle, Percent };
-
 /// A number, in thousandths of its own unit; of times: of a millisecond, of angles: of a degree.
 struct Quantity {
   static constexpr std::int64_t one = 1000;
   std::int64_t thousandths = 0;
-  Measure measure = Measure::None;
+  Measure measure = Measure::Number;
 };
 
 /// The names that stand for numbers.

@@ -5,6 +5,7 @@
 #include "repair/arrange.h"
 #include "repair/colours.h"
 #include "repair/print_items.h"
+#include "repair/units.h"
 #include "repair/word_index.h"
 
 #include <algorithm>
@@ -24,7 +25,8 @@ using Text = std::optional<std::string>;
 /// A number in thousandths, with a point or without.
 std::optional<std::int64_t> thousandths(const Token& token) {
   constexpr std::size_t longest = 12;
-  return token.is_number() && token.text.size() <= longest ? decimal(token.text) : std::nullopt;
+  return token.is_number() && token.text.size() <= longest ? thousandths_in(token.text)
+                                                           : std::nullopt;
 }
 
 std::optional<std::int64_t> whole(const Tokens& tokens) {
@@ -63,27 +65,6 @@ Text plus(const Tokens& tokens, std::int64_t step) {
   return fmt::format("{} {} {}", join(tokens), step < 0 ? '-' : '+', std::abs(step));
 }
 
-struct Unit {
-  std::string_view words;
-  std::int64_t ms; ///< per one
-};
-constexpr auto units = std::to_array<Unit>(
-    {{"ms msec millis millisec millisecond milliseconds millisekunden milisegundos millisecondes "
-      "msecs "
-      "millisecondi milissegundos milliseconde",
-      1},
-     {"s sec secs second seconds sekunde sekunden sek segundo segundos seconden seconde secondes "
-      "secondi "
-      "secondo seg",
-      second_ms},
-     {"m min mins minute minutes minuten minuut minuto minutos minuti", 60 * second_ms}});
-
-const Unit* unit_called(std::string_view word) {
-  static const WordIndex index(units, [](const Unit& one) { return one.words; });
-  const auto& lists = index.lists_of(word);
-  return lists.empty() ? nullptr : &units[lists.front()];
-}
-
 enum class Assume : std::uint8_t { Milliseconds, Seconds, Either };
 
 /// Milliseconds, and whether they were said with a unit, or are seconds.
@@ -107,12 +88,11 @@ std::optional<Time> time_of(const Tokens& tokens, Assume assume) {
   const bool fraction = *value % second_ms != 0 || (first.text.find('.') != std::string::npos &&
                                                     *value <= most_seconds * second_ms);
   if (used < tokens.size()) {
-    const auto* const unit = tokens[used].is_word() ? unit_called(tokens[used].text) : nullptr;
+    const auto ms = tokens[used].is_word() ? milliseconds_of(tokens[used].text) : 0;
     const bool metres = tokens[used].is("m") && first.text.find('.') != std::string::npos;
-    if (unit == nullptr || metres || used + 1 != tokens.size() ||
-        (*value * unit->ms) % second_ms != 0)
+    if (ms == 0 || metres || used + 1 != tokens.size() || (*value * ms) % second_ms != 0)
       return std::nullopt;
-    return Time{*value * unit->ms / second_ms, true};
+    return Time{*value * ms / second_ms, true};
   }
   const bool seconds = assume == Assume::Seconds || fraction ||
                        (assume == Assume::Either && *value <= most_seconds * second_ms);
@@ -161,23 +141,21 @@ Text length(const Tokens& tokens) {
     return tokens.empty() ? Text("") : std::nullopt;
   if (tokens.size() == 1)
     return tokens[0].text + "cm";
-  const auto& unit = tokens[1].text;
-  if (holds("cm centimetres centimeters zentimeter centimetre centimeter", unit))
-    return tokens[0].text + "cm";
-  if (holds("m metre metres meter meters", unit))
-    return tokens[0].text + "m";
-  return std::nullopt;
+  static constexpr std::array written{unit::cm, unit::m};
+  const auto* const unit = unit_called(tokens[1].text, Measure::Length);
+  return unit != nullptr && find_unit(unit->word, written) != nullptr
+             ? Text(fmt::format("{}{}", tokens[0].text, unit->word))
+             : std::nullopt;
 }
 
 /// A length, more or less, as a first and a last one: in centimetres.
 Text around_length(const Tokens& middle, const Tokens& tolerance) {
-  constexpr std::int64_t metre_cm = 100;
   const auto centimetres = [](const Tokens& tokens) -> std::optional<std::int64_t> {
-    const auto value = tokens.empty() ? std::nullopt : thousandths(tokens[0]);
-    const bool metres = tokens.size() == 2 && tokens[1].is("m");
-    if (!value || tokens.size() > 2 || (tokens.size() == 2 && !metres && !tokens[1].is("cm")))
-      return std::nullopt;
-    return *value * (metres ? metre_cm : 1) / second_ms;
+    const auto* const unit =
+        tokens.size() == 2 ? unit_called(tokens[1].text, Measure::Length) : &unit::cm;
+    const bool is_length = !tokens.empty() && tokens.size() <= 2 && unit != nullptr;
+    const auto length = is_length ? steps_of(tokens[0].text, unit->steps) : std::nullopt;
+    return length ? std::optional(length->count / unit::cm.steps) : std::nullopt;
   };
   const auto cm = centimetres(middle);
   const auto off = centimetres(tolerance);
@@ -624,22 +602,6 @@ Text name_of(std::string_view name, const Holes& holes, const Surroundings& arou
 }
 
 } // namespace
-
-std::optional<std::int64_t> decimal(std::string_view text) {
-  constexpr std::size_t places = 3;
-  const auto point = text.find('.');
-  auto digits = std::string(text.substr(0, point));
-  auto decimals = point == std::string_view::npos ? "" : std::string(text.substr(point + 1));
-  if (decimals.size() > places)
-    return std::nullopt;
-  decimals.resize(places, '0');
-  return parse_number<std::int64_t>(digits + decimals);
-}
-
-std::int64_t milliseconds_of(std::string_view unit) {
-  const auto* const found = unit_called(unit);
-  return found == nullptr ? 0 : found->ms;
-}
 
 bool holds_name(const Tokens& tokens, const Surroundings& around) {
   return std::any_of(tokens.begin(), tokens.end(), [&](const Token& token) {

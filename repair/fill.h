@@ -22,12 +22,6 @@ struct Holes {
 
 inline constexpr std::int64_t full_circle = 360; // degrees
 
-/// A number with up to three decimal places, in thousandths.
-std::optional<std::int64_t> decimal(std::string_view text);
-
-/// How many milliseconds a unit of time is, in any of the languages; 0 for other words.
-std::int64_t milliseconds_of(std::string_view unit);
-
 /// Whether a name that other lines use, too, is among the tokens.
 bool holds_name(const Tokens& tokens, const Surroundings& around);
 

@@ -2,8 +2,8 @@
 
 #include "base/text/text.h"
 #include "repair/arrange.h"
-#include "repair/fill.h"
 #include "repair/gist.h"
+#include "repair/units.h"
 
 #include <algorithm>
 

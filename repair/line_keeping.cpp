@@ -4,6 +4,7 @@
 #include "repair/arrange.h"
 #include "repair/colours.h"
 #include "repair/fill.h"
+#include "repair/units.h"
 
 #include <algorithm>
 #include <array>

@@ -4,8 +4,8 @@
 #include "base/text/text.h"
 #include "repair/arrange.h"
 #include "repair/colours.h"
-#include "repair/fill.h"
 #include "repair/inflections.h"
+#include "repair/units.h"
 
 #include <algorithm>
 #include <array>

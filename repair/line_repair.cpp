@@ -6,6 +6,7 @@
 #include "repair/fill.h"
 #include "repair/idioms.h"
 #include "repair/inflections.h"
+#include "repair/units.h"
 
 #include <algorithm>
 #include <fmt/format.h>

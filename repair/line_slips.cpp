@@ -1,7 +1,7 @@
 #include "repair/line_repair.h"
 
 #include "base/text/text.h"
-#include "repair/fill.h"
+#include "repair/units.h"
 
 #include <algorithm>
 #include <string>

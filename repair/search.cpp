@@ -2,8 +2,8 @@
 
 #include "base/text/suggest.h"
 #include "base/text/text.h"
-#include "repair/fill.h"
 #include "repair/idioms.h"
+#include "repair/units.h"
 
 #include <algorithm>
 #include <array>

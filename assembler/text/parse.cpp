@@ -5,7 +5,9 @@
 #include "base/text/suggest.h"
 #include "base/text/text.h"
 #include "base/text/utf8.h"
+#include "base/units.h"
 
+#include <algorithm>
 #include <array>
 #include <cstring>
 #include <fmt/format.h>
@@ -70,55 +72,23 @@ struct Builder {
   }
 };
 
-std::int64_t read_digits(const char*& at, const char* end, std::int64_t base) {
-  std::int64_t number = 0;
-  for (; at != end; ++at) {
-    const char c = *at;
-    const int digit = c >= '0' && c <= '9'   ? c - '0'
-                      : c >= 'a' && c <= 'f' ? c - 'a' + 10
-                      : c >= 'A' && c <= 'F' ? c - 'A' + 10
-                                             : 16;
-    if (digit >= base)
-      break;
-    number = std::min(number * base + digit, largest_number);
-  }
-  return number;
-}
+constexpr std::array macro_units{unit::ms, unit::s, unit::deg};
 
-Unit read_unit(std::string_view word) {
-  if (word.empty())
-    return Unit::None;
-  if (word == "ms")
-    return Unit::Milliseconds;
-  if (word == "s")
-    return Unit::Seconds;
-  if (word == "deg")
-    return Unit::Degrees;
-  return Unit::Unknown;
-}
-
-void read_number(Value& value, const char* at, const char* end) {
-  const bool negative = *at == '-';
-  if (negative || *at == '+')
-    ++at;
-  if (end - at > 2 && at[0] == '0' && (at[1] == 'x' || at[1] == 'X')) {
-    at += 2;
-    value.thousandths = read_digits(at, end, 16) * whole;
+void read_number(Value& value, std::string_view text) {
+  const auto digits = text.substr(text.starts_with('-') || text.starts_with('+') ? 1 : 0);
+  const auto amount = split_amount(digits);
+  if (const auto hex = hexadecimal(digits)) {
+    value.thousandths = std::min(*hex, largest_number) * whole;
   } else {
-    value.thousandths = read_digits(at, end, 10) * whole;
-    if (at != end && *at == '.') {
-      ++at;
-      for (std::int64_t worth = whole / 10; at != end && is_digit(*at); ++at, worth /= 10) {
-        value.thousandths += worth * (*at - '0');
-        if (worth == 0 && *at != '0')
-          value.unit = Unit::Unknown; // finer than a thousandth
-      }
-    }
+    const auto steps = steps_of(amount.number, whole);
+    value.thousandths = largest_number * whole;
+    if (steps)
+      value.thousandths = std::min(steps->count, value.thousandths);
+    value.unit = find_unit(amount.rest, macro_units);
+    value.is_known = (!steps || steps->exact) && (value.unit != nullptr || amount.rest.empty());
   }
-  if (negative)
+  if (text.starts_with('-'))
     value.thousandths = -value.thousandths;
-  if (value.unit == Unit::None)
-    value.unit = read_unit({at, static_cast<std::size_t>(end - at)});
 }
 
 ORB_ACTIONS
@@ -129,8 +99,8 @@ ORB_ACTION(g::directive, builder.head(in.begin(), in.end());
            builder.statement.kind = Statement::Kind::NoEnd)
 ORB_ACTION(g::word, builder.add(Value::Kind::Word, in.begin(), in.end()))
 ORB_ACTION(g::equals, builder.equals())
-ORB_ACTION(g::number, read_number(builder.add(Value::Kind::Number, in.begin(), in.end()),
-                                  in.begin(), in.end()))
+ORB_ACTION(g::number,
+           read_number(builder.add(Value::Kind::Number, in.begin(), in.end()), in.string_view()))
 ORB_ACTION(g::text, builder.add(Value::Kind::Text, in.begin(), in.end()))
 
 template <typename Rule>

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "base/diagnostic.h"
+#include "base/units.h"
 #include "spec/macro.h"
 
 #include <cstdint>
@@ -10,12 +11,8 @@
 
 namespace orb::assembler {
 
-/// What stands after a number.
-enum class Unit : std::uint8_t { None, Milliseconds, Seconds, Degrees, Unknown };
-
 /// Numbers count in thousandths: 1.5 is 1500.
 inline constexpr std::int64_t whole = 1000;
-inline constexpr std::int64_t second_ms = 1000; ///< a second in milliseconds
 /// What longer numbers are taken for: beyond every operand, and far from where 64 bits end.
 inline constexpr std::int64_t largest_number = 1'000'000'000;
 
@@ -23,7 +20,8 @@ inline constexpr std::int64_t largest_number = 1'000'000'000;
 struct Value {
   enum class Kind : std::uint8_t { Number, Word, Text };
   Kind kind = Kind::Number;
-  Unit unit = Unit::None;
+  const Unit* unit = nullptr; ///< of a number; none: its operand's own
+  bool is_known = true;       ///< a number whose unit and decimals are known
   Span span;
   Span name;                    ///< before the `=`; empty where the operand has none
   std::int64_t thousandths = 0; ///< of a number, at most `largest_number`

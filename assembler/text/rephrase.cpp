@@ -19,7 +19,6 @@ namespace orb::assembler {
 namespace {
 
 using repair::Counts;
-using repair::Measure;
 using repair::Operand;
 using repair::Quantities;
 using repair::Rephrased;

@@ -1,5 +1,6 @@
 #include "structured/lift/statements.h"
 
+#include "base/units.h"
 #include "compiler/lint/reading.h"
 #include "spec/limits.h"
 
@@ -17,10 +18,7 @@ using spec::Statement;
 
 /// A time as people say it.
 std::string duration(std::int32_t ms) {
-  if (ms >= 1000 && ms % 100 == 0)
-    return ms % 1000 == 0 ? fmt::format("{}s", ms / 1000)
-                          : fmt::format("{}.{}s", ms / 1000, ms % 1000 / 100);
-  return fmt::format("{}ms", ms);
+  return ms >= 1000 && ms % 100 == 0 ? thousandths_text(ms) + "s" : fmt::format("{}ms", ms);
 }
 
 class StatementWriter {

@@ -171,25 +171,11 @@ std::string Cursor::file_name() {
 
 std::optional<double> Cursor::digits() {
   skip_blanks();
-  auto end = at_;
-  if (end < text_.size() && (text_[end] == '-' || text_[end] == '+'))
-    ++end;
-  const auto first = end;
-  const auto run = [&] {
-    while (end < text_.size() && is_digit(text_[end]))
-      ++end;
-  };
-  run();
-  if (end > first && end + 1 < text_.size() && text_[end] == '.' && is_digit(text_[end + 1])) {
-    ++end;
-    run();
-  }
-  auto number = text_.substr(at_, end - at_);
-  if (number.starts_with('+'))
-    number.remove_prefix(1);
+  const auto written = split_amount(text_.substr(at_)).number;
+  const auto number = written.substr(written.starts_with('+') ? 1 : 0);
   const auto value = parse_number<double>(number, std::chars_format::fixed);
   if (value)
-    at_ = end;
+    at_ += written.size();
   return value;
 }
 
@@ -232,14 +218,13 @@ std::string_view Cursor::unit_word() {
   return text_.substr(at_, end - at_);
 }
 
-Cursor::Range Cursor::range(std::span<const Unit> units, std::string_view what,
+Cursor::Range Cursor::range(std::span<const Unit> units, const Unit& in, std::string_view what,
                             std::string_view example) {
   const auto from = offset();
   const auto help = fmt::format("write it like `{}`", example);
   const auto factor = [&](std::string_view word) {
-    const auto found = std::find_if(units.begin(), units.end(),
-                                    [&](const Unit& unit) { return unit.word == word; });
-    return found == units.end() ? 0.0 : found->factor;
+    const auto* const found = find_unit(word, units);
+    return found == nullptr ? 0.0 : found->in(in);
   };
   const auto least = digits();
   const auto first_unit = unit_word();
@@ -279,9 +264,7 @@ Cursor::Range Cursor::range(std::span<const Unit> units, std::string_view what,
 
 namespace {
 
-// clang-format off
-constexpr auto length_words = std::to_array<std::pair<std::string_view, double>>({{"mm", 0.1}, {"cm", 1}, {"m", 100}});
-// clang-format on
+constexpr std::array speed_units{unit::cm_s, unit::m_s};
 
 } // namespace
 
@@ -297,9 +280,8 @@ double Cursor::length() {
   }
   const auto unit = unit_word();
   at_ += unit.size();
-  const auto row = std::find_if(length_words.begin(), length_words.end(),
-                                [&](const auto& one) { return one.first == unit; });
-  if (row == length_words.end()) {
+  const auto* const row = find_unit(unit, length_units);
+  if (row == nullptr) {
     fail_at(span_from(from), rules::Value,
             unit.empty() ? std::string("the length needs a unit")
                          : fmt::format("`{}` is not a unit of length", unit),
@@ -307,29 +289,26 @@ double Cursor::length() {
                         text_.substr(from - begin_, at_ - unit.size() - (from - begin_))));
     return 0;
   }
-  if (*value < 0 || *value * row->second > most_number)
+  const auto cm = *value * row->in(unit::cm);
+  if (*value < 0 || cm > most_number)
     fail_at(span_from(from), rules::Value,
             *value < 0 ? std::string("a length cannot be negative")
                        : std::string("the length is too large"));
-  return *value * row->second;
+  return cm;
 }
 
 Cursor::Range Cursor::lengths() {
-  std::array<Unit, length_words.size()> units{};
-  for (std::size_t i = 0; i < units.size(); ++i)
-    units[i] = {length_words[i].first, length_words[i].second};
-  return range(units, "distance", "90cm..110cm");
+  return range(length_units, unit::cm, "distance", "90cm..110cm");
 }
 
 Cursor::Range Cursor::speeds() {
-  constexpr std::array<Unit, 2> units{{{"cm/s", 1}, {"m/s", 100}}};
-  return range(units, "speed", "50..60cm/s");
+  return range(speed_units, unit::cm_s, "speed", "50..60cm/s");
 }
 
 Cursor::Range Cursor::numbers(std::string_view what, std::int64_t least, std::int64_t greatest) {
-  constexpr std::array<Unit, 1> units{{{"", 1}}};
   const auto from = offset();
-  const auto found = range(units, what, fmt::format("{}..{}", least, greatest));
+  const auto found =
+      range({&unit::one, 1}, unit::one, what, fmt::format("{}..{}", least, greatest));
   if (!failed_ &&
       (found.least < static_cast<double>(least) || found.most > static_cast<double>(greatest)))
     fail_at(span_from(from), rules::Value,
@@ -341,9 +320,9 @@ namespace {
 
 /// Whether a time has a number and a unit, and is only too much of it.
 bool is_too_long(std::string_view text) {
-  const auto digits = std::min(text.find_first_not_of("0123456789."), text.size());
-  return digits > 0 && parse_duration("1" + std::string(text.substr(digits))).has_value() &&
-         text.find('.') == text.rfind('.');
+  const auto amount = split_amount(text);
+  return !amount.number.empty() && is_digit(text.front()) &&
+         parse_duration("1" + std::string(amount.rest)).has_value();
 }
 
 } // namespace
@@ -377,8 +356,8 @@ std::pair<Duration, Duration> Cursor::times() {
       dots == std::string_view::npos ? std::nullopt : parse_duration(text.substr(dots + 2));
   auto from = dots == std::string_view::npos ? std::nullopt : parse_duration(text.substr(0, dots));
   if (to && !from) // `2..3s`: the unit of the second
-    if (const auto unit = text.find_first_of("hms", dots); unit != std::string_view::npos)
-      from = parse_duration(fmt::format("{}{}", text.substr(0, dots), text.substr(unit)));
+    from = parse_duration(
+        fmt::format("{}{}", text.substr(0, dots), split_amount(text.substr(dots + 2)).rest));
   if (!from || !to) {
     fail(rules::Value,
          at_end() ? std::string("missing time span")

@@ -3,7 +3,9 @@
 #include "base/diagnostic.h"
 #include "base/source.h"
 #include "base/time.h"
+#include "base/units.h"
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -13,6 +15,9 @@
 #include <vector>
 
 namespace orb::testing {
+
+/// The units of lengths in test files.
+inline constexpr std::array length_units{unit::mm, unit::cm, unit::m};
 
 /// Reads one line of a test file from left to right. The first thing that is wrong is told; after
 /// that every function returns a value that does no harm and says nothing more.
@@ -73,13 +78,10 @@ public:
   void fail_at(Span span, const Rule& rule, std::string message, std::string help = {});
 
 private:
-  struct Unit {
-    std::string_view word;
-    double factor;
-  };
   std::optional<double> digits();
   std::string_view unit_word();
-  Range range(std::span<const Unit> units, std::string_view what, std::string_view example);
+  Range range(std::span<const Unit> units, const Unit& in, std::string_view what,
+              std::string_view example);
   void skip_blanks();
 
   std::string_view text_;

@@ -4,6 +4,7 @@
 #include "base/text/text.h"
 #include "repair/arrange.h"
 #include "repair/idioms.h"
+#include "repair/units.h"
 
 #include <algorithm>
 #include <array>
@@ -317,25 +318,6 @@ Tokens without_signs(const Tokens& line) {
   return all;
 }
 
-std::optional<double> centimetres_in(std::string_view unit) {
-  struct Unit {
-    std::string_view words;
-    double cm;
-  };
-  constexpr auto units = std::to_array<Unit>({
-      {"cm", 1},
-      {"m", 100},
-      {"mm", 0.1},
-      {"dm decimetre decimeter dezimeter", 10},
-      {"in inch inches zoll", 2.54},
-      {"ft foot feet", 30.48},
-      {"yd yard yards", 91.44},
-  });
-  const auto found = std::find_if(units.begin(), units.end(),
-                                  [&](const Unit& one) { return holds(one.words, unit); });
-  return found == units.end() ? std::nullopt : std::optional(found->cm);
-}
-
 Tokens plain_places(const Tokens& line) {
   Tokens all;
   for (std::size_t i = 0; i < line.size(); ++i) {
@@ -346,12 +328,12 @@ Tokens plain_places(const Tokens& line) {
     const auto sign = all.empty() || !all.back().is("-") ? all.size() : all.size() - 1;
     const bool place =
         sign > 1 && all[sign - 1].is_relation() && (all[sign - 2].is("x") || all[sign - 2].is("y"));
-    const auto unit = place && token.is_number() && i + 1 < line.size() && !line[i + 1].gap
-                          ? centimetres_in(line[i + 1].text)
-                          : std::nullopt;
-    if (unit) {
+    const auto* const unit = place && token.is_number() && i + 1 < line.size() && !line[i + 1].gap
+                                 ? repair::unit_called(line[i + 1].text, Measure::Length)
+                                 : nullptr;
+    if (unit != nullptr) {
       const auto value = parse_number<double>(token.text, std::chars_format::fixed).value_or(0);
-      token.text = fmt::format("{}", value * *unit);
+      token.text = fmt::format("{}", value * unit->in(unit::cm));
       ++i;
     }
     all.push_back(token);
@@ -360,21 +342,15 @@ Tokens plain_places(const Tokens& line) {
 }
 
 Tokens with_units(const Tokens& line) {
-  struct Unit {
-    std::string_view word;
-    std::string_view words;
-  };
-  constexpr auto units = std::to_array<Unit>({
-      {"m", "metre metres meter meters mètre mètres metro metros metri m"},
-      {"cm", "centimetre centimetres centimeter centimeters zentimeter centímetros cm"},
-      {"s", "second seconds secs sec sekunde sekunden segundo segundos seconde secondes secondi s"},
-      {"ms", "milliseconds millisecond millis msec ms"},
-  });
+  constexpr std::array written{unit::m, unit::cm, unit::s, unit::ms};
   auto all = line;
   for (std::size_t i = 1; i < all.size(); ++i)
-    for (const auto& unit : units)
-      if (all[i].is_word() && all[i - 1].is_number() && holds(unit.words, all[i].text)) {
-        all[i].text = unit.word;
+    for (const auto measure : {Measure::Time, Measure::Length})
+      if (const auto* const unit = all[i].is_word() && all[i - 1].is_number()
+                                       ? repair::unit_called(all[i].text, measure)
+                                       : nullptr;
+          unit != nullptr && find_unit(unit->word, written) != nullptr) {
+        all[i].text = unit->word;
         all[i].gap = false;
       }
   return all;

@@ -28,9 +28,6 @@ repair::Tokens without_signs(const repair::Tokens& line);
 /// Whether a word says that something is printed, in any of the languages.
 bool says_print(const repair::Token& token);
 
-/// How many centimetres a unit of length is, of this country or another; nothing for other words.
-std::optional<double> centimetres_in(std::string_view unit);
-
 /// Places in centimetres without their unit, as `beyond` and `wall` take them: `x>0.7m` is `x>70`;
 /// doubled relations once.
 repair::Tokens plain_places(const repair::Tokens& line);

@@ -1,5 +1,7 @@
 #include "base/text/text.h"
 #include "repair/arrange.h"
+#include "repair/units.h"
+#include "testing/text/cursor.h"
 #include "testing/text/foreign.h"
 
 #include <algorithm>
@@ -319,12 +321,13 @@ Tokens with_name(const Tokens& line) {
 /// `6in` is `15cm`; what is in metres stays.
 Tokens with_metric_lengths(Tokens line) {
   for (std::size_t i = 1; i < line.size(); ++i) {
-    if (!line[i - 1].is_number() || !line[i].is_word() || holds("cm m mm", line[i].text) ||
-        (line[i].gap && line[i].is("in")))
+    if (!line[i - 1].is_number() || !line[i].is_word() || (line[i].gap && line[i].is("in")))
       continue;
-    if (const auto cm = centimetres_in(line[i].text)) {
+    const auto* const unit = repair::unit_called(line[i].text, Measure::Length);
+    if (unit != nullptr && find_unit(unit->word, length_units) == nullptr) {
       const auto value =
-          parse_number<double>(line[i - 1].text, std::chars_format::fixed).value_or(0) * *cm;
+          parse_number<double>(line[i - 1].text, std::chars_format::fixed).value_or(0) *
+          unit->in(unit::cm);
       line[i - 1].text = std::to_string(std::lround(value));
       line[i] = Token{Token::Kind::Word, "cm", false};
     }

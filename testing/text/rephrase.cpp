@@ -1,8 +1,11 @@
 #include "testing/text/rephrase.h"
 
+#include "base/duration.h"
 #include "base/text/suggest.h"
 #include "base/text/text.h"
+#include "repair/units.h"
 #include "spec/ball.h"
+#include "testing/text/cursor.h"
 #include "testing/text/foreign.h"
 #include "testing/text/vocabulary.h"
 #include "vm/stimulus.h"
@@ -19,7 +22,6 @@ namespace {
 
 using repair::Counts;
 using repair::Language;
-using repair::Measure;
 using repair::Operand;
 using repair::Quantity;
 using repair::Rephrased;
@@ -38,7 +40,7 @@ const ExpectationInfo* expectation(const Token& token) {
 }
 
 bool is_time_unit(const Token& token) {
-  return token.is("s") || token.is("ms") || token.is("min") || token.is("h");
+  return token.is_word() && find_unit(token.text, time_units) != nullptr;
 }
 
 /// What a line says, in phrases; each as it was written.
@@ -164,8 +166,10 @@ Tokens ascending(Tokens tokens) {
     if (left.empty() || right.empty() || !left[0].is_number() || !right[0].is_number())
       continue;
     const auto factor = [](const Tokens& value) {
-      const auto is = [&](std::string_view unit) { return value.size() > 1 && value[1].is(unit); };
-      return is("m") ? 1000.0 : is("cm") ? 10.0 : is("min") ? 60000.0 : is("s") ? 1000.0 : 1.0;
+      const auto word = value.size() > 1 ? std::string_view(value[1].text) : std::string_view();
+      const auto* const time = find_unit(word, time_units);
+      const auto* const unit = time != nullptr ? time : find_unit(word, length_units);
+      return unit != nullptr ? static_cast<double>(unit->steps) : 1.0;
     };
     const auto value = [&](const Tokens& of) {
       const bool bare = of.size() == 1; // it has the unit of the other
@@ -205,16 +209,16 @@ std::optional<std::string> near(const Tokens& values, const Tokens& by, const st
       return std::nullopt;
     const auto number = (sign ? "-" : "") + values[i + (sign ? 1 : 0)].text;
     i += sign ? 1 : 0;
-    const bool unit = i + 1 < values.size() &&
-                      (values[i + 1].is("cm") || values[i + 1].is("m") || values[i + 1].is("mm"));
+    const bool unit =
+        i + 1 < values.size() && find_unit(values[i + 1].text, length_units) != nullptr;
     const bool is_place = unit && !distance.empty() && !values[i + 1].is("mm");
     i += unit ? 1 : 0;
-    constexpr double metre_cm = 100;
     if (unit && distance.empty())
       distance = number + values[i].text;
     else if (is_place && values[i].is("m"))
-      numbers.push_back(fmt::format(
-          "{}", parse_number<double>(number, std::chars_format::fixed).value_or(0) * metre_cm));
+      numbers.push_back(
+          fmt::format("{}", parse_number<double>(number, std::chars_format::fixed).value_or(0) *
+                                unit::m.in(unit::cm)));
     else if (!unit || is_place)
       numbers.push_back(number);
     else
@@ -238,10 +242,9 @@ std::optional<std::string> near(const Tokens& values, const Tokens& by, const st
   if (numbers.size() >= 2 && distance.find_first_of("cm") == std::string::npos && metres && parts &&
       (distance.empty() || part_of_metre(distance))) { // `near 0.37,0.37 by 0.08`
     const auto in_cm = [](std::string& number) {
-      constexpr double metre_cm = 100;
       number = fmt::format(
           "{}", std::round(parse_number<double>(number, std::chars_format::fixed).value_or(0) *
-                           metre_cm));
+                           unit::m.in(unit::cm)));
     };
     std::for_each(numbers.begin(), numbers.end(), in_cm);
     if (!distance.empty())
@@ -289,7 +292,7 @@ std::optional<std::string> beyond(const Tokens& values) {
 std::optional<std::string> heading(const Tokens& values) {
   const auto value = repair::quantity_of(values, {});
   if (!value || value->thousandths % whole != 0 ||
-      (value->measure != Measure::None && value->measure != Measure::Angle))
+      (value->measure != Measure::Number && value->measure != Measure::Angle))
     return std::nullopt;
   return fmt::format("heading {}",
                      (value->thousandths / whole % full_circle + full_circle) % full_circle);
@@ -350,13 +353,11 @@ std::string around(const Tokens& values) {
   if (values.size() != 2 || !values[0].is_number())
     return text;
   const auto value = parse_number<double>(values[0].text, std::chars_format::fixed).value_or(0);
-  const auto& unit = values[1].text;
-  const bool metres = unit == "m" || unit.starts_with("met") || unit.starts_with("mèt");
-  if (!metres && unit != "cm" && !unit.starts_with("centim"))
+  const auto* const unit = repair::unit_called(values[1].text, Measure::Length);
+  if (unit == nullptr)
     return text;
   constexpr double tenth = 0.1;
-  constexpr double metre_cm = 100;
-  const auto cm = value * (metres ? metre_cm : 1);
+  const auto cm = value * unit->in(unit::cm);
   return fmt::format("{}cm..{}cm", std::lround(cm * (1 - tenth)), std::lround(cm * (1 + tenth)));
 }
 
@@ -982,11 +983,12 @@ std::optional<Rephrased> arrange_wall(const Tokens& line) {
     if (axis.empty())
       return std::nullopt;
     const bool has_unit = i + 1 < line.size() && line[i + 1].is_word();
-    const auto unit = has_unit ? centimetres_in(line[i + 1].text) : std::optional(1.0);
-    if (!unit)
+    const auto* const unit =
+        has_unit ? repair::unit_called(line[i + 1].text, Measure::Length) : &unit::cm;
+    if (unit == nullptr)
       return std::nullopt;
     const auto cm = parse_number<double>(line[i].text, std::chars_format::fixed).value_or(0) *
-                    *unit * (negative ? -1 : 1);
+                    unit->in(unit::cm) * (negative ? -1 : 1);
     all += fmt::format("{}wall {}={}", all.empty() ? "" : "\n", axis, cm);
     axis.clear();
   }

@@ -351,7 +351,7 @@ std::vector<Hint> hints(const Source& source, const LanguageOptions&) {
       const auto* operand = operand_of(source, program, statement, i);
       if (operand == nullptr || value.kind != Value::Kind::Number)
         continue;
-      const bool says_itself = value.unit != assembler::Unit::None;
+      const bool says_itself = value.unit != nullptr || !value.is_known;
       if (auto hint = number_hint(operand->name, says_itself ? "" : spec::to_string(operand->unit),
                                   value.thousandths / assembler::whole, value.span.end))
         found.push_back(*std::move(hint));
