@@ -4,6 +4,7 @@
 #include "assembler/operands.h"
 #include "assembler/text/parse.h"
 #include "assembler/text/rules.h"
+#include "assembler/text/texts.h"
 #include "base/text/utf8.h"
 
 #include <algorithm>
@@ -74,8 +75,7 @@ Assembly Assembler::run() {
       std::all_of(program_.statements.begin(), program_.statements.end(),
                   [](const Statement& one) { return one.kind == Statement::Kind::Const; });
   if (says_nothing && findings_.all().empty())
-    findings_.add(rules::EmptyFile, {0, 0}, "the file has no macro commands",
-                  "write one, such as `marker 20`");
+    findings_.add(rules::EmptyFile, {0, 0}, texts::NoCommands(), texts::WriteOne());
   sort_by_place(findings_.all());
   return {std::move(macros_), std::move(findings_.all())};
 }
@@ -109,8 +109,7 @@ void Assembler::add(const Statement& statement) {
   }
   if (!inside_) {
     if (!outside_reported_)
-      findings_.add(rules::OutsideMacro, statement.span, "this is above the first `.macro` line",
-                    "move it below a `.macro` line, or add one above it");
+      findings_.add(rules::OutsideMacro, statement.span, texts::AboveMacros(), texts::MoveBelow());
     outside_reported_ = true;
     return;
   }
@@ -141,7 +140,7 @@ void Assembler::add_raw(const Statement& statement) {
     static constexpr auto byte =
         spec::macro_detail::number("byte", spec::MacroUnit::None, 1, 0, UINT8_MAX);
     if (value.name.size() != 0)
-      findings_.add(rules::UnknownOperand, value.name, "`.raw` takes bytes, not names");
+      findings_.add(rules::UnknownOperand, value.name, texts::RawTakesBytes());
     else if (const auto number = operands_.resolve(value, byte, ".raw"))
       out.body.push_back(static_cast<std::uint8_t>(*number));
   }
@@ -166,8 +165,8 @@ void Assembler::add_command(const Statement& statement) {
   auto& out = macro();
   if (out.has_end && out.id != spec::macro_id_stream) {
     if (!after_end_reported_)
-      findings_.add(rules::AfterEnd, statement.span, "this comes after `end`",
-                    "remove `end`, or start another macro with `.macro`");
+      findings_.add(rules::AfterEnd, statement.span, texts::ComesAfter("end"),
+                    texts::StartAnother("end", ".macro"));
     after_end_reported_ = true;
     return;
   }
@@ -182,7 +181,7 @@ void Assembler::add_command(const Statement& statement) {
       const auto* given = (*bound)[i];
       if (given == nullptr || info->operand[i].kind == MacroOperandKind::Text)
         continue;
-      const auto number = operands_.resolve(*given, info->operand[i], info->mnemonic);
+      const auto number = operands_.resolve(*given, info->operand[i], statement.info->mnemonic);
       good = good && number.has_value();
       value[i] = number.value_or(0);
     }
@@ -241,12 +240,9 @@ bool Assembler::fold(std::int32_t time_ms) {
 std::optional<Diagnostic> unreadable(const Source& source) {
   const auto text = source.text();
   if (text.empty())
-    return finding(rules::EmptyFile, {0, 0}, "the file is empty",
-                   "write a command, such as `marker 20`");
+    return finding(rules::EmptyFile, {0, 0}, texts::FileIsEmpty(), texts::WriteCommand());
   if (text.size() > largest_source)
-    return finding(
-        rules::SourceTooLarge, {0, 0},
-        fmt::format("the file is {} bytes; the limit is {}", text.size(), largest_source));
+    return finding(rules::SourceTooLarge, {0, 0}, texts::FileTooLarge(text.size(), largest_source));
   // One pass without branches first: nearly every file is text.
   bool any = false;
   for (const char c : text)
@@ -257,10 +253,9 @@ std::optional<Diagnostic> unreadable(const Source& source) {
     return is_binary_byte[static_cast<unsigned char>(c)];
   });
   const auto at = static_cast<std::uint32_t>(binary - text.data());
-  return finding(
-      rules::BinaryFile, {at, at + 1},
-      fmt::format("the file is not text: byte {:02X}h", static_cast<unsigned char>(*binary)),
-      "`orb disasm` reads the bytes of a macro");
+  return finding(rules::BinaryFile, {at, at + 1},
+                 texts::NotText(fmt::format("{:02X}h", static_cast<unsigned char>(*binary))),
+                 texts::ReadsBytes());
 }
 
 } // namespace

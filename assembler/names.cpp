@@ -1,7 +1,8 @@
 #include "assembler/names.h"
 
 #include "assembler/text/rules.h"
-#include "base/text/suggest.h"
+#include "assembler/text/texts.h"
+#include "base/meant.h"
 
 #include <algorithm>
 #include <array>
@@ -10,6 +11,13 @@
 namespace orb::assembler {
 
 namespace {
+
+/// What a `.macro` line says behind its name: `id=40`.
+namespace header {
+constexpr Slot id = slot::whole("N", texts::Id, spec::macro_id_none, UINT8_MAX).after("id");
+constexpr Slot flags = slot::whole("FLAG,…", texts::Flags, 0, UINT8_MAX).after("flags");
+constexpr Slot ext = slot::whole("N", texts::ExtendedFlags, 0, UINT8_MAX).after("ext");
+} // namespace header
 
 void set_flags(AssembledMacro& defined, int flags) {
   defined.flags = static_cast<std::uint8_t>(flags);
@@ -49,17 +57,15 @@ void Names::define(Span span, Name name) {
   name.span = span;
   const auto [old, is_new] = names_.emplace(program_.text_of(span), name);
   if (!is_new)
-    findings_
-        .add(rules::DuplicateName, span,
-             fmt::format("`{}` is defined twice", program_.text_of(span)))
-        .notes.push_back({old->second.span, "first defined here"});
+    findings_.add(rules::DuplicateName, span, texts::DefinedTwice(program_.text_of(span)))
+        .notes.push_back({old->second.span, texts::FirstDefined()});
 }
 
 void Names::define_constant(const Statement& statement) {
   const auto values = program_.values_of(statement);
   if (values.size() != 1 || values[0].name.size() == 0) {
-    findings_.add(rules::Syntax, statement.span, "`.const` takes a name and a value",
-                  "write `.const NAME = 100`");
+    findings_.add(rules::Syntax, statement.span, texts::NameAndValue(".const"),
+                  texts::Write(".const NAME = 100"));
     return;
   }
   const auto& value = values[0];
@@ -76,8 +82,8 @@ void Names::define_macro(const Statement& statement) {
   AssembledMacro defined;
   const auto values = program_.values_of(statement);
   if (values.empty() || values[0].kind != Value::Kind::Word || values[0].name.size() != 0) {
-    findings_.add(rules::Header, statement.head, "`.macro` needs a name",
-                  "write `.macro NAME id=40 flags=motor_control`");
+    findings_.add(rules::Header, statement.head, texts::MacroNeedsName(),
+                  texts::Write(".macro NAME id=40 flags=motor_control"));
     defined.span = statement.head;
     macros_.push_back(std::move(defined));
     return;
@@ -103,51 +109,46 @@ void Names::define_macro(const Statement& statement) {
 
 void Names::read_attribute(AssembledMacro& defined, std::string_view attribute,
                            const Value& value) {
-  if (attribute == "id")
+  if (attribute == header::id.before)
     return read_id(defined, value);
-  if (attribute == "flags")
+  if (attribute == header::flags.before)
     return read_flag(defined, value);
-  if (attribute == "ext") {
-    if (const auto byte = header_byte(value, 0, "extended flags must be"))
+  if (attribute == header::ext.before) {
+    if (const auto byte = header_byte(value, header::ext))
       defined.extended_flags = byte;
     return;
   }
-  constexpr std::string_view attributes[] = {"id", "flags", "ext"};
+  constexpr std::array words{header::id.before, header::flags.before, header::ext.before};
   findings_.add(rules::Header, value.name.size() != 0 ? value.name : value.span,
-                attribute.empty() ? "unexpected second name"
-                                  : fmt::format("`.macro` has no `{}=`", attribute),
-                did_you_mean(attribute, attributes, "use `id=`, `flags=` or `ext=`"));
+                attribute.empty() ? texts::SecondName() : texts::NoAttribute(".macro", attribute),
+                meant_or(attribute, words, texts::AttributesAre()));
 }
 
-std::optional<std::uint8_t> Names::header_byte(const Value& value, int minimum,
-                                               std::string_view what) {
+std::optional<std::uint8_t> Names::header_byte(const Value& value, const Slot& slot) {
   const auto* found = number(value);
   if (found != nullptr && found->is_known && found->unit == nullptr &&
-      found->thousandths % whole == 0 && found->thousandths >= minimum * whole &&
-      found->thousandths <= UINT8_MAX * whole)
+      found->thousandths % whole == 0 && found->thousandths >= slot.least * whole &&
+      found->thousandths <= slot.most * whole)
     return static_cast<std::uint8_t>(found->thousandths / whole);
   findings_.add(rules::Header, value.span,
-                fmt::format("{} {} to {}, found `{}`", what, minimum, UINT8_MAX,
-                            program_.text_of(value.span)));
+                texts::Found(must_be(slot), program_.text_of(value.span)));
   return std::nullopt;
 }
 
 void Names::read_id(AssembledMacro& defined, const Value& value) {
-  const auto id = header_byte(value, spec::macro_id_none, "an id must be");
+  const auto id = header_byte(value, header::id);
   if (!id)
     return offer_id(findings_.all().back(), value.span, spec::macro_id_user_first);
   const auto kind = spec::macro_id_kind(*id);
   if (kind == spec::MacroIdKind::None)
-    offer_id(findings_.add(rules::Header, value.span, "id 0 means that no macro is running",
-                           fmt::format("write an id from {} to {}", spec::macro_id_user_first,
-                                       spec::macro_id_user_last)),
+    offer_id(findings_.add(rules::Header, value.span, texts::IdOfNone(),
+                           texts::IdRange(spec::macro_id_user_first, spec::macro_id_user_last)),
              value.span, spec::macro_id_user_first);
   if (kind == spec::MacroIdKind::System) {
-    auto& d = findings_.add(rules::Header, value.span,
-                            fmt::format("ids {} to {} are reserved for the ball's own macros",
-                                        spec::macro_id_system_first, spec::macro_id_system_last),
-                            fmt::format("write an id from {} to {}", spec::macro_id_user_first,
-                                        spec::macro_id_user_last));
+    auto& d =
+        findings_.add(rules::Header, value.span,
+                      texts::IdsOfSystem(spec::macro_id_system_first, spec::macro_id_system_last),
+                      texts::IdRange(spec::macro_id_user_first, spec::macro_id_user_last));
     d.severity = Severity::Warning;
     offer_id(d, value.span, spec::macro_id_user_first);
   }
@@ -165,7 +166,7 @@ void Names::offer_id(Diagnostic& d, Span span, std::uint8_t first) const {
     ++free;
   if (is_taken(free))
     return;
-  d.help = fmt::format("write `id={}`", free);
+  d.help = texts::Write(fmt::format("id={}", free));
   d.fix = Fix{d.help, {{span, std::to_string(free)}}, Safety::Unsafe};
 }
 
@@ -189,12 +190,12 @@ void Names::read_flag(AssembledMacro& defined, const Value& value) {
         words[i] = spec::macro_flags[i].word;
         all += fmt::format("{}`{}`", i == 0 ? "" : ", ", words[i]);
       }
-      findings_.add(rules::Header, value.span, fmt::format("`{}` is not a macro flag", word),
-                    did_you_mean(word, words, fmt::format("the flags are {}", all)));
+      findings_.add(rules::Header, value.span, texts::NotAFlag(word),
+                    meant_or(word, words, texts::FlagsAre(all)));
       return;
     }
   }
-  if (const auto byte = header_byte(value, 0, "flags must be"))
+  if (const auto byte = header_byte(value, header::flags))
     set_flags(defined, old | *byte);
 }
 
@@ -203,10 +204,9 @@ void Names::check_id_is_free(const AssembledMacro& defined) {
     return;
   for (const auto& other : macros_)
     if (other.id == defined.id) {
-      auto& d = findings_.add(
-          rules::DuplicateId, defined.span,
-          fmt::format("`{}` and `{}` have the same id {}", other.name, defined.name, *defined.id));
-      d.notes.push_back({other.span, fmt::format("`{}` is here", other.name)});
+      auto& d = findings_.add(rules::DuplicateId, defined.span,
+                              texts::SameId(other.name, defined.name, *defined.id));
+      d.notes.push_back({other.span, texts::IsHere(other.name)});
       offer_id(d, id_span_, *defined.id);
       return;
     }

@@ -5,6 +5,7 @@
 #include "assembler/assemble.h"
 #include "assembler/text/program.h"
 #include "base/findings.h"
+#include "base/slots.h"
 
 #include <optional>
 #include <string_view>
@@ -49,7 +50,7 @@ private:
 
   void read_attribute(AssembledMacro& defined, std::string_view attribute, const Value& value);
 
-  std::optional<std::uint8_t> header_byte(const Value& value, int minimum, std::string_view what);
+  std::optional<std::uint8_t> header_byte(const Value& value, const Slot& slot);
 
   void read_id(AssembledMacro& defined, const Value& value);
 

@@ -1,6 +1,7 @@
 #include "assembler/operands.h"
 
 #include "assembler/text/rules.h"
+#include "assembler/text/texts.h"
 #include "base/text/suggest.h"
 #include "base/text/text.h"
 
@@ -28,12 +29,25 @@ std::int64_t scale(const Unit* unit, MacroUnit own) {
   return own == MacroUnit::None || unit->measure != measure ? 0 : whole * unit->steps / step;
 }
 
-std::string range_of(const MacroOperand& operand) {
-  const auto unit = spec::to_string(operand.unit);
+constexpr int tick_ms = 10;
+
+std::int32_t least_of(const MacroOperand& operand) {
+  return operand.unit == MacroUnit::Ticks10ms ? operand.minimum * tick_ms : operand.minimum;
+}
+
+/// `359 deg`
+Message most_of(const MacroOperand& operand) {
   if (operand.unit == MacroUnit::Ticks10ms)
-    return fmt::format("{} to {} ms in steps of 10", operand.minimum * 10, operand.maximum * 10);
-  return fmt::format("{} to {}{}{}", operand.minimum, operand.maximum, unit.empty() ? "" : " ",
-                     unit);
+    return texts::InSteps(fmt::format("{} ms", operand.maximum * tick_ms), tick_ms);
+  const auto unit = spec::to_string(operand.unit);
+  return Message::as_is(fmt::format("{}{}{}", operand.maximum, unit.empty() ? "" : " ", unit));
+}
+
+Message words_of(const MacroOperand& operand) {
+  std::string list;
+  for (const auto* word = operand.begin_words(); word != operand.end_words(); ++word)
+    list += fmt::format("{}`{}`", list.empty() ? "" : ", ", word->word);
+  return texts::ItIsOneOf(list);
 }
 
 /// An angle within one turn.
@@ -51,16 +65,15 @@ std::string operand_list(const spec::MacroCommandInfo& info) {
 }
 
 /// The lines that wait as long; empty for what would be a page of them.
-std::string waits_for(std::int64_t ms) {
+Message waits_for(std::int64_t ms) {
   constexpr std::int64_t most_lines = 9;
   const auto& delay = spec::info(MacroCommand::Delay);
   const std::int64_t most = delay.operand[0].maximum;
   const auto lines = (ms + most - 1) / most;
   if (ms < 0 || lines > most_lines)
     return {};
-  return lines < 2 ? fmt::format("put `{} {}` on the next line", delay.mnemonic, ms)
-                   : fmt::format("put `{} {}` on each of the next {} lines", delay.mnemonic,
-                                 ms / lines, lines);
+  return lines < 2 ? texts::PutBelow(fmt::format("{} {}", delay.mnemonic, ms))
+                   : texts::PutOnLines(fmt::format("{} {}", delay.mnemonic, ms / lines), lines);
 }
 
 } // namespace
@@ -82,23 +95,15 @@ std::optional<Bound> Operands::bind(const Statement& statement,
         return std::nullopt;
       }
     } else if (named) {
-      findings_.add(rules::OperandCount, value.span, "positional operand after a named one",
-                    fmt::format("`{}` takes {}", info.mnemonic, operand_list(info)));
+      findings_.add(rules::OperandCount, value.span, texts::PlaceAfterName(),
+                    texts::Takes(info.mnemonic, operand_list(info)));
       return std::nullopt;
     } else if (position == info.operand_count) {
-      findings_.add(rules::OperandCount, value.span,
-                    info.operand_count == 0
-                        ? fmt::format("`{}` takes no operands", info.mnemonic)
-                        : fmt::format("`{}` takes {}, found {}", info.mnemonic,
-                                      plural(info.operand_count, "operand"), statement.count),
-                    info.operand_count == 0
-                        ? std::string()
-                        : fmt::format("its operands are {}", operand_list(info)));
+      too_many(statement, info, value.span);
       return std::nullopt;
     }
     if (bound[i] != nullptr) {
-      findings_.add(rules::OperandCount, value.span,
-                    fmt::format("duplicate operand `{}`", info.operand[i].name));
+      findings_.add(rules::OperandCount, value.span, texts::DuplicateOperand(info.operand[i].name));
       return std::nullopt;
     }
     bound[i] = &value;
@@ -106,13 +111,23 @@ std::optional<Bound> Operands::bind(const Statement& statement,
   }
   for (std::size_t i = 0; i < info.operand_count; ++i)
     if (bound[i] == nullptr && info.operand[i].kind != MacroOperandKind::Delay) {
-      findings_.add(
-          rules::OperandCount, statement.span,
-          fmt::format("`{}` is missing its operand `{}`", info.mnemonic, info.operand[i].name),
-          fmt::format("it takes {}, as in `{}`", operand_list(info), info.example));
+      findings_.add(rules::OperandCount, statement.span,
+                    texts::MissingOperand(info.mnemonic, info.operand[i].name),
+                    texts::ItTakes(operand_list(info), info.example));
       return std::nullopt;
     }
   return bound;
+}
+
+void Operands::too_many(const Statement& statement, const spec::MacroCommandInfo& info, Span span) {
+  if (info.operand_count == 0)
+    findings_.add(rules::OperandCount, span, texts::TakesNone(info.mnemonic));
+  else
+    findings_.add(rules::OperandCount, span,
+                  info.operand_count == 1
+                      ? texts::TakesOne(info.mnemonic, statement.count)
+                      : texts::TakesSeveral(info.mnemonic, info.operand_count, statement.count),
+                  texts::OperandsAre(operand_list(info)));
 }
 
 void Operands::unknown_operand(const spec::MacroCommandInfo& info, Span span) {
@@ -121,13 +136,12 @@ void Operands::unknown_operand(const spec::MacroCommandInfo& info, Span span) {
     names[i] = info.operand[i].name;
   const auto meant = closest(program_.text_of(span), std::span(names).first(info.operand_count));
   auto& diagnostic = findings_.add(
-      rules::UnknownOperand, span,
-      fmt::format("`{}` has no operand `{}`", info.mnemonic, program_.text_of(span)),
-      meant                     ? fmt::format("did you mean `{}`?", *meant)
-      : info.operand_count == 0 ? "it has none"
-                                : fmt::format("its operands are {}", operand_list(info)));
+      rules::UnknownOperand, span, texts::NoSuchOperand(info.mnemonic, program_.text_of(span)),
+      meant                     ? texts::DidYouMean(*meant)
+      : info.operand_count == 0 ? texts::HasNone()
+                                : texts::OperandsAre(operand_list(info)));
   if (meant)
-    diagnostic.fix = Fix{fmt::format("write `{}`", *meant), {{span, *meant}}, Safety::Unsafe};
+    diagnostic.fix = Fix{texts::Write(*meant), {{span, *meant}}, Safety::Unsafe};
 }
 
 const spec::MacroCommandInfo* Operands::roll_for(const Value& delay) const {
@@ -147,8 +161,7 @@ std::optional<std::int32_t> Operands::resolve(const Value& value, const MacroOpe
   if (value.kind == Value::Kind::Number)
     return to_number(value, value.span, operand, command);
   if (value.kind == Value::Kind::Text) {
-    findings_.add(rules::OutOfRange, value.span,
-                  fmt::format("`{}` of `{}` must be a number, found text", operand.name, command));
+    findings_.add(rules::OutOfRange, value.span, texts::FoundText(operand.name, command));
     return std::nullopt;
   }
   const auto word = program_.text_of(value.span);
@@ -174,9 +187,7 @@ std::optional<std::int32_t> Operands::resolve(const Value& value, const MacroOpe
 std::optional<std::int32_t> Operands::macro_id(Span span, const Name& name,
                                                const MacroOperand& operand) {
   if (operand.kind != MacroOperandKind::MacroId) {
-    findings_.add(rules::UnknownName, span,
-                  fmt::format("`{}` is a macro, but `{}` takes a number", program_.text_of(span),
-                              operand.name));
+    findings_.add(rules::UnknownName, span, texts::IsAMacro(program_.text_of(span), operand.name));
     return std::nullopt;
   }
   const auto& target = names_.macros()[name.macro];
@@ -184,13 +195,17 @@ std::optional<std::int32_t> Operands::macro_id(Span span, const Name& name,
     return *target.id;
   if (names_.macros().size() == 1)
     return spec::macro_id_temporary;
+  const auto above = program_.text.substr(0, target.span.begin);
+  const auto line = std::count(above.begin(), above.end(), '\n') + 1;
   findings_
-      .add(
-          rules::UnknownName, span,
-          fmt::format("`{}` has no id to jump to", program_.text_of(span)),
-          fmt::format("write `.macro {} id={}`", program_.text_of(span), spec::macro_id_user_first))
-      .notes.push_back({target.span, "defined here"});
+      .add(rules::UnknownName, span, texts::HasNoId(program_.text_of(span)),
+           texts::WriteOnLine(macro_line(span), line))
+      .notes.push_back({target.span, texts::DefinedHere()});
   return std::nullopt;
+}
+
+std::string Operands::macro_line(Span name) const {
+  return fmt::format(".macro {} id={}", program_.text_of(name), spec::macro_id_user_first);
 }
 
 std::optional<std::int32_t> Operands::unknown_name(Span span, const MacroOperand& operand,
@@ -203,24 +218,17 @@ std::optional<std::int32_t> Operands::unknown_name(Span span, const MacroOperand
       known.push_back(name);
   std::sort(known.begin() + operand.word_count, known.end());
   const auto meant = closest(program_.text_of(span), known);
-  std::string help;
+  const auto word = program_.text_of(span);
+  const auto help = meant                                       ? texts::DidYouMean(*meant)
+                    : operand.kind == MacroOperandKind::MacroId ? texts::DefineIt(macro_line(span))
+                    : operand.word_count > 0
+                        ? words_of(operand)
+                        : texts::DefineValue(operand.name, least_of(operand), most_of(operand),
+                                             fmt::format(".const {} = {}", word, operand.maximum));
+  auto& diagnostic =
+      findings_.add(rules::UnknownName, span, texts::NotValid(word, operand.name, command), help);
   if (meant)
-    help = fmt::format("did you mean `{}`?", *meant);
-  else if (operand.word_count > 0 && operand.kind != MacroOperandKind::MacroId)
-    for (std::size_t i = 0; i < operand.word_count; ++i)
-      help += fmt::format("{}`{}`", i == 0 ? "it is one of " : ", ", operand.words[i].word);
-  else if (operand.kind == MacroOperandKind::MacroId)
-    help = fmt::format("define it with `.macro {} id={}`, or write an id", program_.text_of(span),
-                       spec::macro_id_user_first);
-  else
-    help = fmt::format("`{}` is {}; `.const {} = {}` gives the name a value", operand.name,
-                       range_of(operand), program_.text_of(span), operand.maximum);
-  auto& diagnostic = findings_.add(rules::UnknownName, span,
-                                   fmt::format("`{}` is not a valid `{}` for `{}`",
-                                               program_.text_of(span), operand.name, command),
-                                   help);
-  if (meant)
-    diagnostic.fix = Fix{fmt::format("write `{}`", *meant), {{span, *meant}}, Safety::Unsafe};
+    diagnostic.fix = Fix{texts::Write(*meant), {{span, *meant}}, Safety::Unsafe};
   return std::nullopt;
 }
 
@@ -235,11 +243,13 @@ std::optional<std::int32_t> Operands::to_number(const Value& number, Span span,
   // Thousandths of a number times thousandths of the own unit: bounded far below 2^63.
   const auto millionths = number.thousandths * per;
   if (millionths % (whole * whole) != 0) {
+    const auto unit = operand.unit == MacroUnit::None ? texts::Numbers()
+                      : operand.unit == MacroUnit::Ticks10ms
+                          ? texts::StepsOf(spec::to_string(operand.unit))
+                          : Message::as_is(std::string(spec::to_string(operand.unit)));
     findings_.add(
         rules::OutOfRange, span,
-        fmt::format("`{}` of `{}` takes whole {}, found `{}`", operand.name, command,
-                    operand.unit == MacroUnit::None ? "numbers" : spec::to_string(operand.unit),
-                    program_.text_of(span)));
+        texts::Found(texts::TakesWhole(operand.name, command, unit), program_.text_of(span)));
     return std::nullopt;
   }
   const auto value = millionths / (whole * whole);
@@ -254,33 +264,33 @@ void Operands::wrong_unit(const Value& number, Span span, const MacroOperand& op
   if (!number.is_known) {
     const auto word = program_.text_of(number.span);
     const bool hex = word.ends_with('h') || word.ends_with('H');
-    findings_.add(rules::WrongUnit, span, fmt::format("`{}` is not a number", word),
-                  hex ? fmt::format("write hexadecimal as `0x{}`", word.substr(0, word.size() - 1))
-                      : "the units are `ms`, `s` and `deg`; a number has at most three decimals");
+    findings_.add(
+        rules::WrongUnit, span, texts::NotANumber(word),
+        hex ? texts::WriteHexadecimal(fmt::format("0x{}", word.substr(0, word.size() - 1)))
+            : texts::UnitsAre());
     return;
   }
   findings_.add(rules::WrongUnit, span,
-                fmt::format("`{}` of `{}` does not take the unit `{}`", operand.name, command,
-                            number.unit->word),
-                fmt::format("it must be {}", range_of(operand)));
+                texts::OtherUnit(operand.name, command, number.unit->word),
+                texts::MustBe(least_of(operand), most_of(operand)));
 }
 
 void Operands::out_of_range(std::int64_t value, const Value& number, Span span,
                             const MacroOperand& operand, std::string_view command) {
   const bool is_exact = std::abs(number.thousandths) < largest_number * whole;
-  std::string help;
+  Message help;
   if (operand.kind == MacroOperandKind::Delay)
     help = waits_for(value);
   else if (is_exact && operand.unit == MacroUnit::Degrees && !operand.is_signed)
-    help = fmt::format("{} deg is the same direction", same_way(value, operand.maximum + 1));
+    help = texts::SameDirection(same_way(value, operand.maximum + 1));
   else if (operand.word_count > 0)
-    for (std::size_t i = 0; i < operand.word_count; ++i)
-      help += fmt::format("{}`{}`", i == 0 ? "it is one of " : ", ", operand.words[i].word);
+    help = words_of(operand);
+  const auto found = !is_exact ? fmt::format("`{}`", program_.text_of(span))
+                     : operand.unit == MacroUnit::Ticks10ms ? fmt::format("{} ms", value * tick_ms)
+                                                            : std::to_string(value);
   auto& d = findings_.add(
       rules::OutOfRange, span,
-      fmt::format("`{}` of `{}` must be {}, found {}", operand.name, command, range_of(operand),
-                  is_exact ? std::to_string(value) : fmt::format("`{}`", program_.text_of(span))),
-      help);
+      texts::BeyondRange(operand.name, command, least_of(operand), most_of(operand), found), help);
   const bool brightness = operand.name == "red" || operand.name == "green" ||
                           operand.name == "blue" || operand.name == "value";
   if (!is_exact || operand.word_count > 0 || operand.unit == MacroUnit::Milliseconds ||
@@ -291,13 +301,13 @@ void Operands::out_of_range(std::int64_t value, const Value& number, Span span,
   const auto near = operand.unit == MacroUnit::Degrees && !operand.is_signed
                         ? same_way(value, operand.maximum + 1)
                         : std::clamp<std::int64_t>(value, operand.minimum, operand.maximum);
-  d.fix = Fix{fmt::format("write `{}`", near), {{span, std::to_string(near)}}, Safety::Unsafe};
+  d.fix = Fix{texts::Write(near), {{span, std::to_string(near)}}, Safety::Unsafe};
 }
 
 std::string Operands::read_text(const Value& value) {
   if (value.kind != Value::Kind::Text) {
-    findings_.add(rules::OutOfRange, value.span, "a comment needs text in quotes",
-                  fmt::format("write `comment \"{}\"`", program_.text_of(value.span)));
+    findings_.add(rules::OutOfRange, value.span, texts::CommentNeedsText(),
+                  texts::Write(fmt::format("comment \"{}\"", program_.text_of(value.span))));
     return {};
   }
   const auto quoted = program_.text_of(value.span);

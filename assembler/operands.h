@@ -34,10 +34,15 @@ public:
   std::string read_text(const Value& value);
 
 private:
+  void too_many(const Statement& statement, const spec::MacroCommandInfo& info, Span span);
+
   void unknown_operand(const spec::MacroCommandInfo& info, Span span);
 
   std::optional<std::int32_t> macro_id(Span span, const Name& name,
                                        const spec::MacroOperand& operand);
+
+  /// The line that begins a macro of that name.
+  std::string macro_line(Span name) const;
 
   std::optional<std::int32_t> unknown_name(Span span, const spec::MacroOperand& operand,
                                            std::string_view command);

@@ -15,7 +15,7 @@ std::string_view to_string(Severity severity) {
   return "error";
 }
 
-Diagnostic finding(const Rule& rule, Span span, std::string message, std::string help) {
+Diagnostic finding(const Rule& rule, Span span, Message message, Message help) {
   Diagnostic diagnostic;
   diagnostic.rule = &rule;
   diagnostic.severity = rule.severity;

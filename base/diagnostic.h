@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/message.h"
 #include "base/source.h"
 
 #include <cstdint>
@@ -15,6 +16,23 @@ enum class Severity : std::uint8_t { Info, Warning, Error };
 /// `info`, `warning` or `error`: the words of the text and JSON forms.
 std::string_view to_string(Severity severity);
 
+/// What is wrong with a line, as far as it matters to who looks for the line that was meant
+/// (repair/), whatever the language.
+enum class Trouble : std::uint8_t {
+  Other,
+  Unreadable,         ///< no statement that the language has
+  MalformedLine,      ///< a statement whose parts are wrong
+  UnknownName,        ///< a word that nothing defines
+  ForeignWord,        ///< a word of another language
+  ReservedName,       ///< a name that the language has taken
+  WrongValue,         ///< a value of another kind than is needed
+  ArgumentCount,      ///< too many values, or too few
+  MisplacedStatement, ///< a statement that has nothing to leave
+  UnclosedBlock,      ///< a block without its end
+  BlockEnd,           ///< an end without its block
+  Pattern,            ///< within a text, which is in another language
+};
+
 /// What a linter knows about one kind of finding. Rules live in tables beside the code that raises
 /// them; `orb explain`, SARIF and docs/reference/rules.md are printed from the same rows.
 struct Rule {
@@ -25,6 +43,7 @@ struct Rule {
   std::string_view bad;         ///< a smallest source that raises the rule
   std::string_view good;        ///< the same, corrected
   std::uint8_t robot_error = 0; ///< the error number that the robot would report, 0 for none
+  Trouble trouble = Trouble::Other;
 };
 
 /// A row as a program carries it. Where ORB_BRIEF_RULES is defined it is without what only explains
@@ -45,14 +64,14 @@ struct Edit {
 enum class Safety : std::uint8_t { Safe, Unsafe };
 
 struct Fix {
-  std::string title;
+  Message title;
   std::vector<Edit> edits; ///< ascending, not overlapping
   Safety safety = Safety::Safe;
 };
 
 struct Note {
   Span span;
-  std::string message;
+  Message message;
 };
 
 /// One finding about the user's input. Plain data: renderers print it, policy weighs it.
@@ -60,15 +79,15 @@ struct Diagnostic {
   const Rule* rule = nullptr;
   Severity severity = Severity::Error; ///< the rule's, unless the policy changed it
   Span span;
-  std::string message; ///< what was seen: lower case, no full stop, code in backticks
-  std::string help;    ///< what helps; may be empty
+  Message message; ///< what was seen: lower case, no full stop, code in backticks
+  Message help;    ///< what helps; may be empty
   std::vector<Note> notes;
   std::optional<Fix> fix;
   std::optional<std::uint32_t> basic_line; ///< the orbBasic line number, where there is one
 };
 
 /// A finding of `rule` at `span`, with the rule's severity.
-Diagnostic finding(const Rule& rule, Span span, std::string message, std::string help = {});
+Diagnostic finding(const Rule& rule, Span span, Message message, Message help = {});
 
 inline bool is_error(const Diagnostic& diagnostic) {
   return diagnostic.severity == Severity::Error;

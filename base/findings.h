@@ -2,7 +2,6 @@
 
 #include "base/diagnostic.h"
 
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -16,7 +15,7 @@ public:
   explicit Findings(std::vector<Diagnostic> first) : all_(std::move(first)) {}
 
   /// Adds a finding; the reference is good until the next call.
-  Diagnostic& add(const Rule& rule, Span span, std::string message, std::string help = {}) {
+  Diagnostic& add(const Rule& rule, Span span, Message message, Message help = {}) {
     return all_.emplace_back(finding(rule, span, std::move(message), std::move(help)));
   }
   void add(Diagnostic diagnostic) { all_.push_back(std::move(diagnostic)); }

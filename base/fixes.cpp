@@ -1,5 +1,7 @@
 #include "base/fixes.h"
 
+#include "base/texts.h"
+
 #include <algorithm>
 #include <iterator>
 #include <map>
@@ -134,7 +136,7 @@ void say_lines(std::string_view text, std::vector<Diagnostic>& diagnostics) {
         line.replace(edit->span.begin - begin, edit->span.size(), edit->text);
     }
     if (within)
-      d.help = "write `" + line.substr(std::min(line.find_first_not_of(" \t"), line.size())) + "`";
+      d.help = texts::Write(line.substr(std::min(line.find_first_not_of(" \t"), line.size())));
   }
 }
 

@@ -1,9 +1,9 @@
 #include "base/silence.h"
 
 #include "base/rules.h"
+#include "base/texts.h"
 
 #include <algorithm>
-#include <fmt/format.h>
 
 namespace orb {
 namespace {
@@ -39,7 +39,7 @@ void silence(std::string_view text, std::span<const AllowComment> comments,
       if (const auto* rule = find_rule(table, name))
         allowed.push_back({rule, about});
       else
-        findings.push_back(finding(unknown, span, fmt::format("unknown rule `{}`", name)));
+        findings.push_back(finding(unknown, span, texts::UnknownRule(name)));
     }
   std::erase_if(findings, [&](const Diagnostic& d) {
     return std::any_of(allowed.begin(), allowed.end(), [&](const Allowed& entry) {

@@ -4,12 +4,12 @@
 #include "compiler/text/image.h"
 #include "compiler/text/parse.h"
 #include "compiler/text/rules.h"
+#include "compiler/text/texts.h"
 #include "repair/repair.h"
 #include "spec/basic.h"
 #include "spec/limits.h"
 
 #include <algorithm>
-#include <fmt/format.h>
 #include <utility>
 
 namespace orb::compiler {
@@ -63,33 +63,40 @@ void offer_lines(const Program& program, const Target& target, std::vector<Diagn
 std::optional<Diagnostic> refuse_text(std::string_view text) {
   const auto most = static_cast<std::size_t>(spec::value_of(spec::Limit::SourceBytes));
   if (text.size() > most)
-    return finding(rules::SourceTooLarge, {0, 0},
-                   fmt::format("the file is {} bytes; the limit is {}", text.size(), most),
-                   fmt::format("the largest area of any robot is {} bytes",
-                               spec::value_of(spec::Limit::FlashBytes)));
+    return finding(rules::SourceTooLarge, {0, 0}, texts::FileTooLarge(text.size(), most),
+                   texts::LargestArea(spec::value_of(spec::Limit::FlashBytes)));
   if (is_binary(text))
-    return finding(rules::BinaryFile, {0, 0}, "the file is binary, not an orbBasic program",
-                   "programs are plain text");
+    return finding(rules::BinaryFile, {0, 0}, texts::FileIsBinary(), texts::ProgramsArePlainText());
   return std::nullopt;
 }
 
-Checked check(std::string_view text, const Target& target) {
+Checked read(std::string_view text) {
   Checked checked;
   if (auto refused = refuse_text(text)) {
     checked.diagnostics.push_back(std::move(*refused));
     return checked;
   }
   checked.program = parse(text);
-  if (!holds_program(checked.program)) {
+  if (!holds_program(checked.program))
     checked.diagnostics.push_back(
-        finding(rules::EmptyProgram, {0, 0}, "the file has no program lines",
-                "a line is a number, a space and a statement: `10 print \"hello\"`"));
+        finding(rules::EmptyProgram, {0, 0}, texts::NoProgramLines(),
+                texts::ALineIs("10 print \"hello\"")));
+  return checked;
+}
+
+std::vector<Diagnostic> check(const Program& program, const Target& target) {
+  auto findings = lint(program, target);
+  if (any_error(findings))
+    offer_lines(program, target, findings);
+  say_lines(program.text, findings);
+  return findings;
+}
+
+Checked check(std::string_view text, const Target& target) {
+  auto checked = read(text);
+  if (!checked.diagnostics.empty())
     return checked;
-  }
-  checked.diagnostics = lint(checked.program, target);
-  if (any_error(checked.diagnostics))
-    offer_lines(checked.program, target, checked.diagnostics);
-  say_lines(text, checked.diagnostics);
+  checked.diagnostics = check(checked.program, target);
   checked.image_bytes = image_size(checked.program);
   return checked;
 }

@@ -20,8 +20,14 @@ struct Checked {
   std::optional<std::size_t> image_bytes; ///< of the plain image; nothing where none can be built
 };
 
-/// Checks a whole file: first whether it is a program at all (an empty, a binary or a huge file is
-/// one finding), then every line of it. `text` must outlive the result.
+/// Parses a whole file, without a check: the one finding says why it is no program at all (empty,
+/// binary or huge). `text` must outlive the result.
+Checked read(std::string_view text);
+
+/// All that is to be said about a program that was read without a finding, with the lines to write.
+std::vector<Diagnostic> check(const Program& program, const Target& target);
+
+/// Both: first whether a file is a program, then every line of it.
 Checked check(std::string_view text, const Target& target);
 
 /// What speaks against a whole text: it is binary, or larger than any program. Nothing for a text

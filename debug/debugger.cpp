@@ -68,8 +68,7 @@ bool Debugger::event(const vm::Event& event) {
   const auto* input = error != nullptr ? sources_.input(timeline_->ball().basic_area()) : nullptr;
   if (input == nullptr)
     return false;
-  fault_ =
-      run::explain(*input, options_.target, error->line, error->code, &timeline_->ball().machine());
+  fault_ = run::explain(*input, error->line, error->code, &timeline_->ball().machine());
   if (!stop_at_faults_)
     return false;
   found_ = {Stop::Reason::Fault, {}, fault_text(*fault_)};

@@ -1,5 +1,6 @@
 #include "debug/expression.h"
 
+#include "base/render.h"
 #include "base/text/text.h"
 #include "bytecode/arithmetic.h"
 #include "structured/text/parse.h"
@@ -141,8 +142,7 @@ tl::expected<Expression, std::string> Expression::parse(std::string_view text) {
   const auto wrong =
       std::find_if(program->diagnostics.begin(), program->diagnostics.end(), is_error);
   if (wrong != program->diagnostics.end())
-    return tl::unexpected(wrong->help.empty() ? wrong->message
-                                              : fmt::format("{}; {}", wrong->message, wrong->help));
+    return tl::unexpected(in_one_line(*wrong));
   const bool is_one = program->statements.size() == 1 &&
                       program->statements.front().kind == structured::Kind::Print &&
                       !program->items_of(program->statements.front()).empty();

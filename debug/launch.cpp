@@ -1,5 +1,6 @@
 #include "debug/launch.h"
 
+#include "base/render.h"
 #include "testing/run_suite.h"
 #include "vm/stimulus.h"
 
@@ -19,16 +20,16 @@ std::string errors_of(const Source& source, const std::vector<Diagnostic>& found
   for (const auto& one : found)
     if (is_error(one)) {
       const auto place = source.position(one.span.begin);
-      all += fmt::format("{}{}:{}:{}: {}{}{}", all.empty() ? "" : "\n", source.name(), place.line,
-                         place.column, one.message, one.help.empty() ? "" : "; ", one.help);
+      all += fmt::format("{}{}:{}:{}: {}", all.empty() ? "" : "\n", source.name(), place.line,
+                         place.column, in_one_line(one));
     }
   return all;
 }
 
 std::string errors_of(const run::Input& input) {
-  auto all = errors_of(*input.source, input.findings);
-  for (const auto& file : input.included)
-    if (const auto more = errors_of(*file.source, file.findings); !more.empty())
+  std::string all;
+  for (const auto& file : input.errors)
+    if (const auto more = errors_of(*file.source, file.diagnostics); !more.empty())
       all += (all.empty() ? "" : "\n") + more;
   return all;
 }
@@ -47,8 +48,7 @@ tl::expected<void, Failure> read_files(const Launch& launch, structured::Files& 
     if (!text)
       return tl::unexpected(text.error());
     auto input = run::read_input(path, *std::move(text), launch.language, made.options.target,
-                                 run::Lint::Off, files, {},
-                                 launch.shape.value_or(structured::Shape::Steppable));
+                                 files, {}, launch.shape.value_or(structured::Shape::Steppable));
     if (!input)
       return tl::unexpected(input.error());
     if (auto wrong = errors_of(*input); !wrong.empty())

@@ -37,7 +37,7 @@ Sources::Sources(std::span<const run::Input> inputs, const run::Options& options
     const auto file = static_cast<std::uint32_t>(files_.size());
     files_.push_back({input.source->name(), input.source.get()});
     for (const auto& other : input.included)
-      files_.push_back({other.source->name(), other.source.get()});
+      files_.push_back({other->name(), other.get()});
     if (input.program) {
       const bool first = programs_.empty();
       main_file_ = first ? file : main_file_;

@@ -1,5 +1,6 @@
 #include "disk/disk.h"
 
+#include "base/texts.h"
 #include "disk/io.h"
 
 #include <cerrno>
@@ -30,8 +31,6 @@ public:
 private:
   int fd_;
 };
-
-constexpr std::string_view a_pipe = "a pipe";
 
 /// What the process has been given: /dev/stdin, or /dev/fd/63 of a shell's `<(command)`.
 bool is_descriptor(const std::string& path) {
@@ -80,23 +79,23 @@ tl::expected<void, IoError> replace(const std::string& path, ByteView bytes,
 
 } // namespace
 
-std::string_view what_else(const std::string& path) {
+Message what_else(const std::string& path) {
   struct stat status {};
   if (::stat(path.c_str(), &status) != 0)
     return {};
   if (S_ISFIFO(status.st_mode))
-    return a_pipe;
+    return texts::APipe();
   if (S_ISDIR(status.st_mode))
-    return "a folder";
+    return texts::AFolder();
   if (S_ISSOCK(status.st_mode))
-    return "a socket";
-  return S_ISREG(status.st_mode) && !is_descriptor(path) ? std::string_view() : "a device";
+    return texts::ASocket();
+  return S_ISREG(status.st_mode) && !is_descriptor(path) ? Message() : texts::ADevice();
 }
 
 tl::expected<std::string, IoError> read(const std::string& path) {
   if (path == "-")
     return read_descriptor(STDIN_FILENO, display_name(path));
-  if (!is_descriptor(path) && what_else(path) == a_pipe)
+  if (!is_descriptor(path) && what_else(path).is(texts::APipe))
     return tl::unexpected(IoError{
         fmt::format("cannot read {0}: it is a pipe; `- <{0}` reads it as standard input", path)});
   const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));

@@ -2,6 +2,7 @@
 
 #include "base/bytes.h"
 #include "base/io_error.h"
+#include "base/message.h"
 
 #include <filesystem>
 #include <optional>
@@ -56,7 +57,7 @@ private:
 
 /// What is at `path` if it is not a file: `a pipe`, `a folder`, `a device`, `a socket`. Empty for a
 /// file, and for nothing.
-std::string_view what_else(const std::string& path);
+Message what_else(const std::string& path);
 
 /// What links at `path` lead to, even where that is not there yet.
 std::string target_of_links(std::string path);

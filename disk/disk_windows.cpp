@@ -1,5 +1,6 @@
 #include "disk/disk.h"
 
+#include "base/texts.h"
 #include "disk/io.h"
 
 #include <cerrno>
@@ -69,8 +70,8 @@ bool is_device(const std::string& path) {
 
 } // namespace
 
-std::string_view what_else(const std::string& path) {
-  return is_folder(path) ? "a folder" : is_device(path) ? "a device" : std::string_view();
+Message what_else(const std::string& path) {
+  return is_folder(path) ? texts::AFolder() : is_device(path) ? texts::ADevice() : Message();
 }
 
 tl::expected<std::string, IoError> read(const std::string& path) {

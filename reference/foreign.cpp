@@ -52,7 +52,7 @@ std::string advise(std::string_view line, Language language) {
   repair::Surroundings around;
   around.language = language;
   around.line_number = "100";
-  return repair::advise(repair::tokens_of(line, language), around);
+  return in_english(repair::advise(repair::tokens_of(line, language), around));
 }
 
 /// Several lines beside each other.
@@ -70,8 +70,8 @@ std::optional<Entry> explain_line(std::string_view line) {
   for (const auto& way : ways)
     if (const auto found = here(line, way.language)) {
       entry.facts.emplace_back(way.name, beside(found->text));
-      if (!found->note.empty())
-        entry.summary = found->note;
+      if (found->note != nullptr)
+        entry.summary = in_english({*found->note, {}});
     } else if (auto advice = advise(line, way.language); !advice.empty()) {
       entry.facts.emplace_back(way.name, std::move(advice));
     }

@@ -15,8 +15,7 @@ Entry entry_of(const Row& row, std::string_view before) {
   Entry entry;
   entry.name = row.word;
   entry.summary = row.summary;
-  entry.facts.emplace_back("usage", fmt::format("{}{}{}{}", before, row.word,
-                                                row.operands.empty() ? "" : " ", row.operands));
+  entry.facts.emplace_back("usage", fmt::format("{}{}", before, usage(row.word, row.slots)));
   entry.facts.emplace_back("example", row.example);
   return entry;
 }
@@ -55,7 +54,7 @@ Section test_lines_section() {
   Section section{"test-lines", "Lines of a test file", "line of a test file", {}};
   for (const auto& row : testing::line_words) {
     auto entry = entry_of(row, "");
-    if (row.operands.starts_with("WHAT"))
+    if (usage(row.slots).starts_with("WHAT"))
       entry.facts.emplace_back("what", words_of_expectations());
     if (&row == &testing::info(testing::LineWord::For)) {
       const auto& lasts = testing::info(testing::JoinWord::Lasts);
@@ -77,7 +76,7 @@ Section expectations_section() {
   for (const auto& row : testing::expectations) {
     auto entry = entry_of(row, "expect ");
     if (&row == &testing::info(testing::Word::Variable))
-      entry.facts.front().second = fmt::format("expect {}", row.operands);
+      entry.facts.front().second = fmt::format("expect {}", usage(row.slots));
     entry.facts.emplace_back("when", times_of(row.kind));
     entry.facts.emplace_back("never", row.never == testing::Never::Yes ? "yes" : "no");
     section.entries.push_back(std::move(entry));

@@ -3,6 +3,7 @@
 #include "base/text/text.h"
 #include "repair/fill.h"
 #include "repair/matcher.h"
+#include "repair/texts.h"
 
 #include <algorithm>
 #include <array>
@@ -20,14 +21,22 @@ constexpr char word_rows[] =
 #include "repair/idioms.def"
     ;
 constexpr char idiom_rows[] =
-#define ORB_IDIOM(where, patterns, basic, structured, macro, test, note)                           \
-#where "\x1f" patterns "\x1f" basic "\x1f" structured "\x1f" macro "\x1f" test "\x1f" note "\x1e"
+#define ORB_IDIOM(where, patterns, basic, structured, macro, test, ...)                            \
+#where "\x1f" patterns "\x1f" basic "\x1f" structured "\x1f" macro "\x1f" test                   \
+         "\x1f" __VA_OPT__("note") "\x1e"
 #include "repair/idioms.def"
     ;
 #pragma GCC diagnostic pop
 
+/// Of the rows that have one, in their order.
+constexpr auto notes = std::to_array<const orb::Text*>({
+#define ORB_IDIOM(where, patterns, basic, structured, macro, test, ...)                            \
+  __VA_OPT__(&texts::__VA_ARGS__, )
+#include "repair/idioms.def"
+});
+
 constexpr auto hints = std::to_array<Hint>({
-#define ORB_HINT(patterns, basic, structured) {patterns, basic, structured},
+#define ORB_HINT(patterns, text, basic, structured) {patterns, &texts::text, basic, structured},
 #include "repair/idioms.def"
 });
 
@@ -61,10 +70,10 @@ std::vector<std::vector<std::string_view>> rows_of(std::string_view text) {
 const std::vector<Idiom>& idioms() {
   static const auto all = [] {
     std::vector<Idiom> rows;
-    for (const auto& columns : rows_of(idiom_rows)) {
+    auto note = notes.begin();
+    for (const auto& columns : rows_of(idiom_rows))
       rows.push_back({columns[0] == "Line" ? Where::Line : Where::Inside, columns[1], columns[2],
-                      columns[3], columns[4], columns[5], columns[6]});
-    }
+                      columns[3], columns[4], columns[5], columns[6].empty() ? nullptr : *note++});
     return rows;
   }();
   return all;
@@ -174,20 +183,30 @@ const Patterns& patterns_of(Language language) {
   return all[static_cast<std::size_t>(language)];
 }
 
-/// The patterns of hints that a language has, each with its text as the meaning.
-const std::vector<Pattern>& hints_of(Language language) {
-  static const auto all = [] {
-    std::array<std::vector<Pattern>, 2> each;
-    for (const auto& hint : hints) {
-      if (!hint.basic.empty())
-        add_patterns(each[0], hint.patterns, nullptr, hint.basic, Language::Basic);
-      if (!hint.structured.empty())
-        add_patterns(each[1], hint.patterns, nullptr, hint.structured, Language::Structured);
-    }
-    return each;
-  }();
-  static const std::vector<Pattern> none;
-  return language == Language::Basic ? all[0] : language == Language::Structured ? all[1] : none;
+/// The patterns of hints that a language has; the meaning is what fills the holes of the text.
+std::vector<std::pair<const orb::Text*, std::vector<Pattern>>> read_hints(Language language) {
+  std::vector<std::pair<const orb::Text*, std::vector<Pattern>>> all;
+  for (const auto& hint : hints)
+    if (const auto forms = language == Language::Basic ? hint.basic : hint.structured;
+        !forms.empty())
+      add_patterns(all.emplace_back(hint.text, std::vector<Pattern>()).second, hint.patterns,
+                   nullptr, forms, language);
+  return all;
+}
+
+/// What fills the holes of a hint; nothing where a value has no such form.
+std::optional<std::vector<Message>> fill_each(std::string_view forms, const Holes& holes,
+                                              const Surroundings& around) {
+  std::vector<Message> all;
+  if (forms == "-")
+    return all;
+  for (const auto form : pieces(forms, " ;; ")) {
+    auto text = fill(form, holes, around);
+    if (!text)
+      return std::nullopt;
+    all.push_back(Message::as_is(*std::move(text)));
+  }
+  return all;
 }
 
 /// The statements of a line: all of it, and the branches of an `if`.
@@ -249,9 +268,9 @@ bool is_sure(std::string_view form, const Holes& holes) {
 }
 
 /// Whether what a row says is about what it writes: a macro drives without `goroll`.
-bool fits(std::string_view note, std::string_view form) {
-  const bool drives = note.find("goroll") != std::string_view::npos ||
-                      note.find("1 to drive") != std::string_view::npos;
+bool fits(const orb::Text* note, std::string_view form) {
+  const bool drives = note == &texts::DrivesWithGoroll || note == &texts::RollValues ||
+                      note == &texts::RollThenDelay || note == &texts::DriveOrBrake;
   return !drives || form.find("goroll") != std::string_view::npos;
 }
 
@@ -287,9 +306,9 @@ void rewrite(const Tokens& line, const Surroundings& around,
       const bool inside = pattern.idiom != nullptr && pattern.idiom->where == Where::Inside;
       auto text =
           replaced(line, begin, end, inside ? as_operand(line, begin, end, *filled) : *filled);
-      const auto note = pattern.idiom == nullptr ? std::string_view() : pattern.idiom->note;
-      return text != here && take({std::move(text), fits(note, form) ? note : std::string_view(),
-                                   is_sure(form, holes)});
+      const auto* note = pattern.idiom == nullptr ? nullptr : pattern.idiom->note;
+      return text != here &&
+             take({std::move(text), fits(note, form) ? note : nullptr, is_sure(form, holes)});
     };
     const auto begins = [&](std::size_t i) {
       return pattern.first == 0 || (pattern.first & bit[i]) != 0;
@@ -387,15 +406,21 @@ bool is_known_word(std::string_view word, Where where) {
   return all[static_cast<std::size_t>(where)].contains(lower(word));
 }
 
-std::string advise(const Tokens& line, const Surroundings& around) {
+Message advise(const Tokens& line, const Surroundings& around) {
+  static const auto basic = read_hints(Language::Basic);
+  static const auto structured = read_hints(Language::Structured);
+  if (line.empty() ||
+      (around.language != Language::Basic && around.language != Language::Structured))
+    return {};
   const Line all(line);
-  for (const auto& pattern : hints_of(around.language)) {
-    Matcher matcher(all, line.size(), true);
-    if (line.empty() || matcher.match(pattern, 0) != line.size())
-      continue;
-    if (auto text = fill(pattern.meaning, matcher.holes(), around))
-      return *std::move(text);
-  }
+  for (const auto& [text, patterns] : around.language == Language::Basic ? basic : structured)
+    for (const auto& pattern : patterns) {
+      Matcher matcher(all, line.size(), true);
+      if (matcher.match(pattern, 0) != line.size())
+        continue;
+      if (auto fillers = fill_each(pattern.meaning, matcher.holes(), around))
+        return {*text, *std::move(fillers)};
+    }
   return {};
 }
 

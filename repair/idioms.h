@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/message.h"
 #include "repair/tokens.h"
 
 #include <cstddef>
@@ -36,7 +37,7 @@ struct Idiom {
   std::string_view structured; ///< `=`: as in `basic`; empty: no way to write it
   std::string_view macro;
   std::string_view test;
-  std::string_view note; ///< what is said beside the line
+  const orb::Text* note = nullptr; ///< what is said beside the line; null where nothing is
 };
 
 /// What a line is in, as far as a rewrite depends on it.
@@ -59,15 +60,16 @@ struct Surroundings {
 /// What to do where no one line does it.
 struct Hint {
   std::string_view patterns;
-  std::string_view basic;
-  std::string_view structured; ///< empty: no row for it, as in `basic`
+  const orb::Text* text;
+  std::string_view basic;      ///< what fills the holes of the text; empty: no row for orbBasic
+  std::string_view structured; ///< the same
 };
 
 /// A line after one row was applied to it.
 struct Rewritten {
-  std::string text; ///< no number in front, no comment behind
-  std::string_view note;
-  bool sure = true; ///< nothing else can have been meant
+  std::string text;                ///< no number in front, no comment behind
+  const orb::Text* note = nullptr; ///< why it is so; null where nothing is said
+  bool sure = true;                ///< nothing else can have been meant
 };
 
 /// The words of the languages that people speak, as far as they stand for one of a program.
@@ -100,7 +102,7 @@ std::string word_at(const Tokens& line, std::size_t at);
 bool is_known_word(std::string_view word, Where where);
 
 /// What to do instead of a line that no one line replaces; empty where no row knows it.
-std::string advise(const Tokens& line, const Surroundings& around);
+Message advise(const Tokens& line, const Surroundings& around);
 
 /// A colour by its name in any of the languages, or `#RRGGBB`: 0xRRGGBB.
 std::optional<std::uint32_t> find_colour(const Token& token);

@@ -84,7 +84,7 @@ std::vector<Accepted> LineRepair::find(const Diagnostic& finding) {
   const auto& tokens = parts_.tokens;
   if (tokens.size() > most_tokens)
     return {};
-  misplaced_ = finding.rule->id == "misplaced-statement";
+  misplaced_ = finding.rule->trouble == Trouble::MisplacedStatement;
   if (judge_.language == Language::Macro && !tokens.empty() && tokens[0].is_number())
     name_command();
   if (best_)
@@ -134,12 +134,11 @@ std::vector<Accepted> LineRepair::find(const Diagnostic& finding) {
     own_sub();
   const bool bare_return = tokens.size() == 1 && tokens[0].is("return");
   const bool calls = (!sub_.empty() && parts_.tokens[0].text == sub_) || bare_return;
-  if (calls && !best_ && finding.rule->id == "argument-count")
+  if (calls && !best_ && finding.rule->trouble == Trouble::ArgumentCount)
     return {}; // which value is missing is said, whatever others call so
   if (!best_ && !calls && (!own || leaves_out || finding.fix->safety != Safety::Safe))
     several_lines(start);
-  if (!best_ && !leaves_out && own && !is_foreign(*own) &&
-      (finding.rule->id == "unknown-name" || finding.rule->id == "foreign-word"))
+  if (!best_ && !leaves_out && own && !is_foreign(*own) && repair::is_unknown(finding))
     by_fix(finding); // it knows the names and the blocks
   const bool remark = parts_.tokens.empty() && !parts_.comment.empty();
   if (remark) // `#end while`
@@ -224,7 +223,7 @@ std::optional<Accepted> LineRepair::in_milliseconds() {
   return std::nullopt;
 }
 
-std::string LineRepair::advice() const {
+Message LineRepair::advice() const {
   return advise(parts_.tokens, around_);
 }
 
@@ -308,7 +307,7 @@ std::string LineRepair::declared_otherwise(const std::string& statement) const {
 }
 
 /// Tries a line in its place; true when it cannot be better.
-bool LineRepair::attempt(const std::string& statement, std::string_view note, bool sure) {
+bool LineRepair::attempt(const std::string& statement, const orb::Text* note, bool sure) {
   if (!keeps_meaning(statement))
     return false;
   const bool one = statement.find('\n') == std::string::npos;
@@ -343,12 +342,12 @@ std::size_t LineRepair::errors_of(const std::vector<Diagnostic>& findings,
           return std::any_of(parts_.tokens.begin(), parts_.tokens.end(),
                              [&](const Token& token) { return token.text == word; });
         };
-        return keeps_from_building(one) && (one.rule->id != "unknown-name" ||
+        return keeps_from_building(one) && (one.rule->trouble != Trouble::UnknownName ||
                                             has(text.substr(one.span.begin, one.span.size())));
       }));
 }
 
-std::optional<Accepted> LineRepair::attempt_line(const std::string& text, std::string_view note,
+std::optional<Accepted> LineRepair::attempt_line(const std::string& text, const orb::Text* note,
                                                  bool sure, bool keep) {
   const bool goes_on = text.ends_with(',') && !trim(line_).ends_with(','); // nothing follows
   if (text == line_ || goes_on || checks_ >= most_checks_ || !keeps_texts(text) ||
@@ -365,10 +364,10 @@ std::optional<Accepted> LineRepair::attempt_line(const std::string& text, std::s
   bool quiet = true;
   bool open = false;
   for (const auto& one : found) {
-    open = open || one.rule->id == "unclosed-block" || one.rule->id == "block-end";
+    open = open || is_unclosed(one) || is_block_end(one);
     if (one.span.begin < begin || one.span.begin > begin + text.size())
       continue;
-    if (keeps_from_building(one) && one.rule->id != "unclosed-block")
+    if (keeps_from_building(one) && !is_unclosed(one))
       return std::nullopt;
     quiet = quiet && one.severity == Severity::Info;
   }

@@ -19,16 +19,28 @@ namespace orb::repair {
 /// Whether a word is one of them, in capitals or not.
 bool has_word(const std::vector<std::string_view>& words, std::string_view word);
 
+/// Whether a finding is about a word that means nothing.
+inline bool is_unknown(const Diagnostic& finding) {
+  return finding.rule->trouble == Trouble::UnknownName ||
+         finding.rule->trouble == Trouble::ForeignWord;
+}
+inline bool is_unclosed(const Diagnostic& finding) {
+  return finding.rule->trouble == Trouble::UnclosedBlock;
+}
+inline bool is_block_end(const Diagnostic& finding) {
+  return finding.rule->trouble == Trouble::BlockEnd;
+}
+
 std::size_t errors_in(const std::vector<Diagnostic>& findings);
 
 /// Lines that were tried in the place of one.
 struct Accepted {
-  std::string text; ///< the whole line; several, each with its end but the last
-  std::string_view note;
-  bool fewer = false; ///< the text has fewer errors with it
-  bool quiet = false; ///< nothing else is said about the line
-  bool sure = true;   ///< nothing else can have been meant
-  bool open = false;  ///< a block still lacks its end, or an end its block
+  std::string text;                ///< the whole line; several, each with its end but the last
+  const orb::Text* note = nullptr; ///< why it is so; null where nothing is said
+  bool fewer = false;              ///< the text has fewer errors with it
+  bool quiet = false;              ///< nothing else is said about the line
+  bool sure = true;                ///< nothing else can have been meant
+  bool open = false;               ///< a block still lacks its end, or an end its block
   std::size_t errors = 0;
 
   /// Whether no other line can do more.
@@ -51,7 +63,7 @@ public:
   std::vector<Accepted> find(const Diagnostic& finding);
 
   /// What to do where there is no line to write.
-  std::string advice() const;
+  Message advice() const;
 
   /// The line as the fix of a finding leaves it; nothing where the fix goes beyond the line.
   std::optional<std::string> fixed(const Diagnostic& finding) const;
@@ -121,13 +133,13 @@ private:
   bool invents_macro(std::string_view statement) const;
   bool keeps_operands(std::string_view statement) const;
   bool keeps_meaning(std::string_view statement) const;
-  bool attempt(const std::string& statement, std::string_view note, bool sure);
+  bool attempt(const std::string& statement, const orb::Text* note, bool sure);
   bool parses(std::string_view lines) const;
   bool keeps_texts(std::string_view lines) const;
   bool calls_with_name() const;
   bool keeps_leaving(std::string_view lines) const;
   std::size_t errors_of(const std::vector<Diagnostic>& findings, std::string_view text) const;
-  std::optional<Accepted> attempt_line(const std::string& text, std::string_view note, bool sure,
+  std::optional<Accepted> attempt_line(const std::string& text, const orb::Text* note, bool sure,
                                        bool keep = true);
   std::string with_bracket() const;
   std::optional<int> cost_of_texts(std::string_view statement) const;

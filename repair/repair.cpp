@@ -5,10 +5,10 @@
 #include "repair/blocks.h"
 #include "repair/fill.h"
 #include "repair/line_repair.h"
+#include "repair/texts.h"
 
 #include <algorithm>
 #include <array>
-#include <fmt/format.h>
 #include <map>
 #include <optional>
 #include <set>
@@ -63,9 +63,8 @@ bool mend_definition(const Source& source, const Judge& judge, const Scenery& sc
         return false;
       auto line = std::string(source.line(n));
       line.replace(token.at, other->size(), word);
-      finding.help =
-          fmt::format("write `{}` on line {}", line.substr(line.find_first_not_of(" \t")), n);
-      finding.fix = Fix{fmt::format("rename `{}` to `{}`", *other, word), {edit}, Safety::Unsafe};
+      finding.help = texts::WriteOnLine(line.substr(line.find_first_not_of(" \t")), n);
+      finding.fix = Fix{texts::Rename(*other, word), {edit}, Safety::Unsafe};
       return true;
     }
   return false;
@@ -84,6 +83,10 @@ bool parses_after(const Edit& edit, std::string_view line, Span span, const Judg
   return true;
 }
 
+bool is_one_of(const Diagnostic& finding, std::initializer_list<Trouble> troubles) {
+  return std::find(troubles.begin(), troubles.end(), finding.rule->trouble) != troubles.end();
+}
+
 /// Whether a finding is about how its line is written: a line that parses is only looked at where a
 /// word in it means nothing, and a fix of several lines knows better.
 bool is_about_writing(const Diagnostic& finding, const Source& source, const Judge& judge,
@@ -97,15 +100,13 @@ bool is_about_writing(const Diagnostic& finding, const Source& source, const Jud
         return false;
   if (finding.span.end > span.end)
     return false; // it goes on below
-  if (finding.rule->id == "test-pattern")
-    return false; // what is between the slashes is another language
+  if (finding.rule->trouble == Trouble::Pattern)
+    return false;
   if ((judge.language != Language::Basic && judge.language != Language::Structured) ||
       !judge.parses(text))
     return true;
-  constexpr auto unknown = std::to_array<std::string_view>(
-      {"unknown-name", "wrong-use", "argument-count", "foreign-word", "reserved-name",
-       "condition-as-value", "bad-number", "malformed-line"});
-  return std::find(unknown.begin(), unknown.end(), finding.rule->id) != unknown.end();
+  return is_one_of(finding, {Trouble::UnknownName, Trouble::WrongValue, Trouble::ArgumentCount,
+                             Trouble::ForeignWord, Trouble::ReservedName, Trouble::MalformedLine});
 }
 
 std::string without_blanks(std::string text) {
@@ -119,9 +120,14 @@ bool is_safe(const Diagnostic& finding) {
 
 /// Whether a finding only says that the line does not parse.
 bool says_little(const Diagnostic& finding) {
-  constexpr auto rules = std::to_array<std::string_view>(
-      {"syntax-error", "unknown-statement", "unknown-name", "foreign-word", "malformed-line"});
-  return !finding.fix && std::find(rules.begin(), rules.end(), finding.rule->id) != rules.end();
+  return !finding.fix && is_one_of(finding, {Trouble::Unreadable, Trouble::UnknownName,
+                                             Trouble::ForeignWord, Trouble::MalformedLine});
+}
+
+/// Whether a help is the line to write.
+bool says_line(const Message& help) {
+  return help.is(texts::Write) || help.is(texts::WriteBecause) || help.is(texts::WriteEither) ||
+         help.is(texts::WriteTwo) || help.is(texts::WriteThree);
 }
 
 /// Whether a fix only leaves something out or puts something in, which a whole line does, too.
@@ -187,7 +193,7 @@ private:
   /// Blocks of several lines, each with one fix at all of its findings.
   void blocks() {
     for (const auto& block : blocks_as_jumps(source_, scenery_, judge_.parses)) {
-      Fix fix{"replace the block with jumps", block.edits, Safety::Safe};
+      Fix fix{texts::ReplaceBlock(), block.edits, Safety::Safe};
       Diagnostic all;
       all.fix = fix;
       fix.safety = block.sure ? Safety::Safe : Safety::Unsafe;
@@ -198,9 +204,7 @@ private:
         if (!is_error(finding) || written == block.lines.end() ||
             !lines_.insert(written->first).second)
           continue;
-        finding.help = written->second.empty()
-                           ? "remove the line"
-                           : in_turn(written->second, [](std::string_view line) { return line; });
+        finding.help = in_turn(written->second, [](std::string_view line) { return line; });
         finding.fix = fix;
         mended_.insert(&finding);
       }
@@ -310,7 +314,7 @@ private:
       first.tokens.back() = tokens_of("then", judge_.language)[0];
     first.tokens.back().gap = true;
     auto joined = first.head + repair::join(first.tokens);
-    Fix fix{"remove the line", {}, Safety::Unsafe};
+    Fix fix{texts::RemoveLine(), {}, Safety::Unsafe};
     for (std::size_t i = 1; i < lines.size(); ++i) {
       auto tokens = tokens_at(lines[i]);
       if (is_else(tokens))
@@ -326,32 +330,29 @@ private:
     fix.edits.push_back({source_.line_span(lines[0]), joined});
     std::sort(fix.edits.begin(), fix.edits.end(),
               [](const Edit& a, const Edit& b) { return a.span.begin < b.span.begin; });
-    finding.help =
-        fmt::format("write `{}`, and remove ", joined) +
-        (lines.size() > 2               ? fmt::format("lines {} to {}", scenery_.number(lines[1]),
-                                                      scenery_.number(lines.back()))
-         : line_of(finding) == lines[1] ? std::string("this line")
-                                        : fmt::format("line {}", scenery_.number(lines[1])));
+    const auto next = scenery_.number(lines[1]);
+    finding.help = lines.size() > 2
+                       ? texts::WriteAndRemoveLines(joined, next, scenery_.number(lines.back()))
+                   : line_of(finding) == lines[1] ? texts::WriteAndRemoveThis(joined)
+                                                  : texts::WriteAndRemoveLine(joined, next);
     finding.fix = std::move(fix);
     return true;
   }
 
   /// Whether a word is unknown because the line that sets or names it is wrong itself.
   bool is_consequence(const Diagnostic& finding) const {
-    constexpr auto unknown = std::to_array<std::string_view>({"unknown-name", "foreign-word"});
-    if (judge_.language != Language::Structured ||
-        std::find(unknown.begin(), unknown.end(), finding.rule->id) == unknown.end())
+    if (judge_.language != Language::Structured || !is_unknown(finding))
       return false;
     const auto word = source_.text(finding.span);
     const auto at = line_of(finding);
     return std::any_of(before_.begin(), before_.end(), [&](const Diagnostic& other) {
       if (!is_error(other) || line_of(other) == at)
         return false;
-      if (other.rule->id == "reserved-name")
+      if (other.rule->trouble == Trouble::ReservedName)
         return equal_words(source_.text(other.span), word);
       const auto tokens = tokens_at(line_of(other));
-      return other.rule->id == "malformed-line" && tokens.size() > 1 && tokens[0].is_word() &&
-             equal_words(tokens[0].text, word) && tokens[1].is("=");
+      return other.rule->trouble == Trouble::MalformedLine && tokens.size() > 1 &&
+             tokens[0].is_word() && equal_words(tokens[0].text, word) && tokens[1].is("=");
     });
   }
 
@@ -360,11 +361,11 @@ private:
   void close_block(Diagnostic& finding) {
     const auto line = line_of(finding);
     const auto next = below(line);
-    if (finding.rule->id != "unclosed-block" || (next != 0 && indent(next) > indent(line)))
+    if (!is_unclosed(finding) || (next != 0 && indent(next) > indent(line)))
       return;
     Diagnostic* open = nullptr;
     for (auto& other : findings_)
-      if (other.rule->id == "unclosed-block" && line_of(other) < line)
+      if (is_unclosed(other) && line_of(other) < line)
         open = &other;
     if (open == nullptr)
       return;
@@ -381,15 +382,15 @@ private:
     if (text.empty())
       return;
     lines_.insert(line);
-    finding.help = fmt::format("write `{}`", text);
+    finding.help = texts::Write(text);
     finding.fix =
         Fix{finding.help, {{source_.line_span(line), std::string(blanks) + text}}, Safety::Unsafe};
     mended_.insert(&finding);
     texts_[line] = std::string(blanks) + text;
-    open->help = fmt::format("{} on line {}", finding.help, line);
+    open->help = texts::WriteOnLine(text, line);
     open->fix = finding.fix;
     if (word == "do") {
-      open->help = "write `repeat`";
+      open->help = texts::Write("repeat");
       open->fix = Fix{open->help,
                       {{source_.line_span(line_of(*open)), std::string(blanks) + "repeat"}},
                       Safety::Unsafe};
@@ -404,12 +405,12 @@ private:
     const auto line = line_of(finding);
     const auto tokens = tokens_at(line);
     const auto next = below(line);
-    if (finding.rule->id != "block-end" || tokens.size() < 2 || !tokens[0].is("until") ||
-        next == 0 || indent(next) <= indent(line))
+    if (!is_block_end(finding) || tokens.size() < 2 || !tokens[0].is("until") || next == 0 ||
+        indent(next) <= indent(line))
       return;
     lines_.insert(line);
     const auto text = "while " + until(Tokens(tokens.begin() + 1, tokens.end()));
-    finding.help = fmt::format("write `{}`", text);
+    finding.help = texts::Write(text);
     const auto begin = source_.line_start(line) + static_cast<std::uint32_t>(indent(line));
     finding.fix = Fix{finding.help, {{{begin, source_.line_span(line).end}, text}}, Safety::Unsafe};
     mended_.insert(&finding);
@@ -435,8 +436,7 @@ private:
       mended_.insert(&finding);
       return;
     }
-    if ((finding.rule->id == "unknown-name" || finding.rule->id == "foreign-word") &&
-        mend_definition(source_, judge_, scenery_, before_, finding)) {
+    if (is_unknown(finding) && mend_definition(source_, judge_, scenery_, before_, finding)) {
       mended_.insert(&finding);
       return;
     }
@@ -464,8 +464,8 @@ private:
       if ((found.size() == 1 || judge_.language == Language::Test) &&
           (found[0].fewer || found[0].open))
         texts_[at] = found[0].text;
-    } else if (repair && finding.fix && finding.help.starts_with("write ") && !mends(finding)) {
-      finding.help.clear(); // one error would only take the place of another
+    } else if (repair && finding.fix && says_line(finding.help) && !mends(finding)) {
+      finding.help = {}; // one error would only take the place of another
       finding.fix.reset();
     } else if (repair && says_little(finding)) {
       if (auto advice = repair->advice(); !advice.empty())
@@ -533,13 +533,20 @@ private:
   void close_mended() {
     for (auto& finding : findings_) {
       const auto mended = texts_.find(line_of(finding));
-      if (finding.rule->id != "unclosed-block" || mended == texts_.end())
+      if (!is_unclosed(finding) || mended == texts_.end())
         continue;
       const auto word = word_at(split(mended->second, judge_.language).tokens, 0);
-      const auto was = fmt::format("`end {}`", source_.text(finding.span));
-      if (const auto at = finding.help.find(was); at != std::string::npos && !word.empty())
-        finding.help.replace(at, was.size(), fmt::format("`end {}`", word));
+      const auto was = end_of(source_.text(finding.span));
+      const auto& said = finding.help.fillers();
+      const auto at = std::find(said.begin(), said.end(), was);
+      if (at != said.end() && !word.empty())
+        finding.help.refill(static_cast<std::size_t>(at - said.begin()), end_of(word));
     }
+  }
+
+  /// What ends the block of a word, as a finding says it.
+  static Message end_of(std::string_view word) {
+    return Message::as_is("end " + std::string(word));
   }
 
   /// Lines from `from` to before `to`, those that are mended as they will be, each with its end.
@@ -600,8 +607,7 @@ private:
     std::set<const Diagnostic*> gone;
     for (const auto& finding : findings_)
       if (keeps_from_building(finding) &&
-          (!finding.fix || finding.rule->id == "block-end" ||
-           finding.rule->id == "unclosed-block" ||
+          (!finding.fix || is_block_end(finding) || is_unclosed(finding) ||
            (lines.contains(line_of(finding)) && is_piecemeal(*finding.fix))) &&
           !mended_.contains(&finding) &&
           std::none_of(after.begin(), after.end(), [&](const Diagnostic& one) {
@@ -622,8 +628,8 @@ private:
     const auto column = told.span.begin - then.line_start(n);
     for (auto& finding : findings_) {
       const auto at = line_of(finding);
-      if (finding.rule->id != "block-end" || mended_.contains(&finding) ||
-          source_.line(at) != line || told.rule == finding.rule)
+      if (!is_block_end(finding) || mended_.contains(&finding) || source_.line(at) != line ||
+          told.rule == finding.rule)
         continue;
       finding = told;
       finding.span.begin = source_.line_start(at) + column;
@@ -633,20 +639,29 @@ private:
     }
   }
 
-  /// One line after the other: "write `print "hi"`, then `delay 2s`".
+  /// One line after the other: "write `print "hi"`, then `delay 2s`"; without one it is left out.
   template <typename Shown>
-  static std::string in_turn(std::string_view lines, Shown shown) {
-    std::string all;
+  static Message in_turn(std::string_view lines, Shown shown) {
+    std::vector<std::string> all;
     for (std::size_t at = 0; at < lines.size();) {
       const auto end = std::min(lines.find_first_of("\r\n", at), lines.size());
-      all +=
-          fmt::format("{} `{}`", at == 0 ? "write" : ", then", shown(lines.substr(at, end - at)));
+      all.emplace_back(shown(lines.substr(at, end - at)));
       at = std::min(lines.find_first_not_of("\r\n", end), lines.size());
     }
-    return all;
+    switch (all.size()) {
+    case 0: return texts::RemoveLine();
+    case 1: return texts::Write(all[0]);
+    case 2: return texts::WriteTwo(all[0], all[1]);
+    case 3: return texts::WriteThree(all[0], all[1], all[2]);
+    default: break;
+    }
+    auto help = texts::WriteFour(all[0], all[1], all[2], all[3]);
+    for (std::size_t i = 4; i < all.size(); ++i)
+      help = texts::Then(std::move(help), all[i]);
+    return help;
   }
 
-  static std::string in_turn(const LineRepair& repair, std::string_view lines) {
+  static Message in_turn(const LineRepair& repair, std::string_view lines) {
     return in_turn(lines, [&](std::string_view line) { return repair.shown(line); });
   }
 
@@ -657,37 +672,35 @@ private:
                           found[1].text.find_first_of("\r\n") == std::string::npos &&
                           found[0].text.find_first_of("\r\n") == std::string::npos;
     if (one_line && repair.shown(found[1].text) != shown) {
-      finding.help = fmt::format("write `{}` or `{}`", shown, repair.shown(found[1].text));
+      finding.help = texts::WriteEither(shown, repair.shown(found[1].text));
       finding.fix.reset();
       return;
     }
-    finding.help = shown.empty() ? "remove the line" : in_turn(repair, found[0].text);
-    if (!found[0].note.empty())
-      finding.help += fmt::format("; {}", found[0].note);
+    const auto lines = shown.empty() ? texts::RemoveLine() : in_turn(repair, found[0].text);
+    finding.help =
+        found[0].note == nullptr ? lines : texts::Because(lines, Message(*found[0].note, {}));
     if (const auto own = repair.fixed(finding);
         is_safe(finding) && (!own || without_blanks(*own) == without_blanks(found[0].text)))
       return; // its own fix goes as far as it must
     const bool safe = found[0].sure && (found[0].fewer || is_safe(finding));
     const auto safety = safe ? Safety::Safe : Safety::Unsafe;
-    if (shown.empty() && repair.line().find_first_not_of(" \t") != std::string_view::npos) {
+    if (shown.empty()) {
       finding.fix = remove(at, safety);
-      if (finding.fix && finding.fix->edits[0].text.ends_with("end"))
-        finding.help = fmt::format("write `{}`", finding.fix->edits[0].text);
+      if (finding.fix && finding.fix->title.is(texts::EndHere))
+        finding.help = texts::Write(finding.fix->edits[0].text);
       return;
     }
-    finding.fix = Fix{shown.empty() ? "empty the line" : in_turn(repair, found[0].text),
-                      {difference(repair.line(), found[0].text, repair.begin())},
-                      safety};
+    finding.fix = Fix{lines, {difference(repair.line(), found[0].text, repair.begin())}, safety};
   }
 
   /// Removes a line; what jumps to it then jumps to the next one, or to an `end` in its place.
   std::optional<Fix> remove(std::uint32_t line, Safety safety) const {
-    Fix fix{"remove the line", {}, safety};
+    Fix fix{texts::RemoveLine(), {}, safety};
     const auto number = judge_.language == Language::Basic ? scenery_.number(line) : std::string();
     const auto jumps = number.empty() ? std::vector<Span>() : scenery_.jumps_to(number);
     const auto next = jumps.empty() ? std::string() : scenery_.number_below(line);
     if (!jumps.empty() && next.empty()) {
-      fix.title = "end here";
+      fix.title = texts::EndHere();
       fix.edits.push_back({source_.line_span(line), number + " end"});
       return fix;
     }

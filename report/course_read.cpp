@@ -50,12 +50,6 @@ std::string_view local_name(std::string_view name) {
 
 } // namespace
 
-std::string_view name_of(Role role) {
-  const auto* const found = std::find_if(role_names.begin(), role_names.end(),
-                                         [&](const RoleName& row) { return row.role == role; });
-  return found->word;
-}
-
 CourseReading Reader::read() {
   const auto& name = source_.name();
   const auto file = file_name(name);
@@ -66,7 +60,7 @@ CourseReading Reader::read() {
   return std::move(out_);
 }
 
-void Reader::say(const Rule& rule, Span span, std::string message, std::string help) {
+void Reader::say(const Rule& rule, Span span, Message message, Message help) {
   if (out_.findings.size() < most_findings)
     out_.findings.push_back(finding(rule, span, std::move(message), std::move(help)));
 }
@@ -110,13 +104,11 @@ Span Reader::place(const pugi::xml_node& node, std::string_view attribute, Span 
 
 bool Reader::is_text() {
   if (text_.size() > most_bytes) {
-    say(rules::CourseTooLarge, {0, 0}, fmt::format("the file is {} bytes", text_.size()),
-        "the limit is 4 MB; delete everything that is not a wall, zone or start");
+    say(rules::CourseTooLarge, {0, 0}, texts::FileSize(text_.size()), texts::FileLimit());
     return false;
   }
   if (text_.starts_with("\x1f\x8b")) {
-    say(rules::CourseXml, {0, 0}, "the drawing is compressed",
-        "save it as Plain SVG, not as Compressed SVG");
+    say(rules::CourseXml, {0, 0}, texts::Compressed(), texts::NotCompressed());
     return false;
   }
   const auto odd = std::find_if(text_.begin(), text_.end(), [](char c) {
@@ -124,14 +116,12 @@ bool Reader::is_text() {
   });
   if (odd != text_.end()) {
     const auto at = static_cast<std::uint32_t>(odd - text_.begin());
-    say(rules::CourseXml, {at, at + 1}, "the file is not text",
-        "a course is a drawing in SVG; save it as Plain SVG");
+    say(rules::CourseXml, {at, at + 1}, texts::NotText(), texts::SvgIsPlain());
     return false;
   }
   if (const auto at = text_.find("<!ENTITY"); at != std::string_view::npos) {
     const auto begin = static_cast<std::uint32_t>(at);
-    say(rules::CourseXml, {begin, begin + 8}, "the file declares entities, which are not read",
-        "save it as Plain SVG");
+    say(rules::CourseXml, {begin, begin + 8}, texts::HasEntities(), texts::PlainSvg());
     return false;
   }
   return true;
@@ -144,19 +134,19 @@ bool Reader::parse() {
     const auto at =
         std::min(static_cast<std::uint32_t>(std::max<std::ptrdiff_t>(result.offset, 0)), size());
     const bool tags = result.status == pugi::status_end_element_mismatch;
+    const bool none = result.status == pugi::status_no_document_element;
     std::string why = result.description();
     why.front() = to_lower(why.front());
     say(rules::CourseXml, {at, std::min(at + 1, size())},
-        tags ? "this end tag closes no open element"
-             : fmt::format("the file is not well-formed XML: {}", why),
-        tags ? "each `<g>` needs a `</g>`; an element without children ends in `/>`" : "");
+        tags ? texts::StrayEndTag() : texts::NotXml(why),
+        tags   ? texts::TagsPair()
+        : none ? texts::SvgIsPlain()
+               : Message());
     return false;
   }
   const auto root = document_.document_element();
   if (local_name(root.name()) != "svg") {
-    say(rules::CourseXml, place(root),
-        fmt::format("the outermost element is `<{}>`, not `<svg>`", root.name()),
-        "a course is a drawing in SVG");
+    say(rules::CourseXml, place(root), texts::NotSvg(root.name()), texts::ASvg());
     return false;
   }
   return true;
@@ -172,8 +162,7 @@ void Reader::read_drawing() {
   if (failed() || !find_start())
     return;
   if (out_.course.walls.empty() && out_.course.zones.empty())
-    say(rules::CourseEmpty, place(root), "no element is a `wall` or a `zone`",
-        "give the lines that stop the ball `class=\"wall\"`");
+    say(rules::CourseEmpty, place(root), texts::NoElement(), texts::GiveClass());
 }
 
 double Reader::scale(const pugi::xml_node& root) {
@@ -181,9 +170,8 @@ double Reader::scale(const pugi::xml_node& root) {
   if (box.empty())
     return 1;
   if (box.size() != 4 || box[2] <= 0 || box[3] <= 0) {
-    say(rules::CourseValue, place(root, "viewBox"),
-        "`viewBox` takes four numbers: left, top, width and height",
-        "as in `viewBox=\"0 0 210 297\"`");
+    say(rules::CourseValue, place(root, "viewBox"), texts::ViewBoxTakes(),
+        texts::AsIn("viewBox=\"0 0 210 297\""));
     return 1;
   }
   const auto wide = size_cm(root, "width");
@@ -197,11 +185,8 @@ double Reader::scale(const pugi::xml_node& root) {
   constexpr double alike = 0.01;
   if (std::abs(by_width - by_height) > alike * by_width)
     say(rules::CourseScale, place(root, "viewBox"),
-        fmt::format(
-            "1 unit is {:.4g} cm according to the width and {:.4g} cm according to the height",
-            by_width, by_height),
-        fmt::format("the smaller one counts; `height=\"{:.6g}cm\"` would match",
-                    by_width * box[3]));
+        texts::TwoScales(fmt::format("{:.4g}", by_width), fmt::format("{:.4g}", by_height)),
+        texts::SmallerCounts(fmt::format("height=\"{:.6g}cm\"", by_width * box[3])));
   return std::min(by_width, by_height);
 }
 
@@ -216,8 +201,7 @@ std::optional<double> Reader::size_cm(const pugi::xml_node& root, const char* at
   if (plain)
     return std::nullopt;
   if (!value || *value <= 0 || found == units.end()) {
-    say(rules::CourseValue, place(root, attribute), fmt::format("`{}` is not a size", text),
-        "write it like 21cm, 210mm, 8.27in or 794px");
+    say(rules::CourseValue, place(root, attribute), texts::NotASize(text), texts::WriteSize());
     return std::nullopt;
   }
   return *value * found->cm;
@@ -225,18 +209,16 @@ std::optional<double> Reader::size_cm(const pugi::xml_node& root, const char* at
 
 void Reader::walk(const Element& parent, int depth) {
   if (depth > most_groups) {
-    say(rules::CourseTooLarge, place(parent.node),
-        fmt::format("more than {} nested groups", most_groups),
-        "in Inkscape, ungroup what need not be a group (Shift+Ctrl+G)");
+    say(rules::CourseTooLarge, place(parent.node), texts::NestedGroups(most_groups),
+        texts::Ungroup());
     return;
   }
   for (const auto& node : parent.node.children()) {
     if (node.type() != pugi::node_element || stop_)
       continue;
     if (++elements_ > most_elements) {
-      say(rules::CourseTooLarge, place(node),
-          fmt::format("the drawing has more than {} elements", most_elements),
-          "delete everything that is not a wall, zone or start");
+      say(rules::CourseTooLarge, place(node), texts::ManyElements(most_elements),
+          texts::DeleteRest());
       stop_ = true;
       return;
     }
@@ -291,15 +273,13 @@ void Reader::doubt(const pugi::xml_node& node, std::string_view attribute, std::
   const auto meant = closest(word, names);
   if (meant && (meant->size() != word.size() ||
                 std::is_permutation(word.begin(), word.end(), meant->begin())))
-    say(rules::CourseName, place(node, attribute),
-        fmt::format("`{}` is treated as decoration", word),
-        fmt::format("did you mean `{}`?", *meant));
+    say(rules::CourseName, place(node, attribute), texts::IsDecoration(word),
+        texts::DidYouMean(*meant));
 }
 
 Matrix Reader::transform(const pugi::xml_node& node) {
   if (!property(node, "transform").empty() && node.attribute("transform").empty())
-    say(rules::CourseValue, place(node, "style"), "a `transform` in `style` is not read",
-        "write it as an attribute: transform=\"…\"");
+    say(rules::CourseValue, place(node, "style"), texts::TransformInStyle(), texts::AsAttribute());
   const auto read = svg::read_transform(node.attribute("transform").value());
   tell(node, "transform", read.mistake);
   return read.matrix;
@@ -309,13 +289,13 @@ void Reader::tell(const pugi::xml_node& node, std::string_view attribute,
                   const std::optional<svg::Mistake>& mistake) {
   if (mistake)
     say(rules::CourseValue, place(node, attribute, mistake->span),
-        fmt::format("`{}`: {}", attribute, mistake->message), mistake->help);
+        texts::InAttribute(attribute, mistake->message), mistake->help);
 }
 
 std::vector<double> Reader::attribute_numbers(const pugi::xml_node& node, const char* attribute) {
   const auto read = svg::read_numbers(node.attribute(attribute).value());
   tell(node, attribute, read.mistake);
-  return read.values;
+  return read.mistake ? std::vector<double>() : read.values;
 }
 
 double Reader::number(const pugi::xml_node& node, const char* attribute) {
@@ -326,24 +306,23 @@ double Reader::number(const pugi::xml_node& node, const char* attribute) {
     return 0;
   const auto value = parse_number<double>(text.front() == '+' ? text.substr(1) : text);
   if (!value || !std::isfinite(*value)) {
-    say(rules::CourseValue, place(node, attribute),
-        fmt::format("`{}` must be a number without a unit, found `{}`", attribute, text),
-        "the drawing's `width`, `height` and `viewBox` set the length of 1 unit");
+    say(rules::CourseValue, place(node, attribute), texts::NotPlain(attribute, text),
+        texts::SetsUnit());
     return 0;
   }
   return *value;
 }
 
 void Reader::refuse(const Element& element) {
-  const bool clone = element.name == "use";
-  say(rules::CourseShape, place(element.node),
-      clone ? "a clone cannot be read"
-            : fmt::format("`{}` cannot be a {}", element.name, name_of(element.role)),
-      clone                         ? "in Inkscape: Edit > Clone > Unlink Clone (Shift+Alt+D)"
-      : element.role == Role::Start ? "a start is a circle, or an arrow: a line or an open path"
-      : element.role == Role::Zone
-          ? "a zone is a rect, a polygon, a closed path, a circle or an ellipse"
-          : "a wall is a line, a polyline, a polygon, a rect or a path");
+  const auto at = place(element.node);
+  if (element.name == "use")
+    say(rules::CourseShape, at, texts::ClonesUnread(), texts::UnlinkClone());
+  else if (element.role == Role::Start)
+    say(rules::CourseShape, at, texts::CannotBeStart(element.name), texts::StartsAre());
+  else if (element.role == Role::Zone)
+    say(rules::CourseShape, at, texts::CannotBeZone(element.name), texts::ZonesAre());
+  else
+    say(rules::CourseShape, at, texts::CannotBeWall(element.name), texts::WallsAre());
 }
 
 CourseReading read_course(const Source& drawing) {

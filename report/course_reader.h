@@ -5,6 +5,7 @@
 #include "report/course.h"
 #include "report/rules.h"
 #include "report/svg_path.h"
+#include "report/texts.h"
 
 #include <algorithm>
 #include <array>
@@ -21,9 +22,6 @@ using svg::Outlines;
 using vm::Point;
 
 enum class Role : std::uint8_t { None, Wall, Zone, Start };
-
-/// The word for a role: `wall`, `zone`, `start`.
-std::string_view name_of(Role role);
 
 /// A property of CSS in a `style` attribute, or the attribute of its name.
 inline std::string_view property(const pugi::xml_node& node, std::string_view name) {
@@ -66,7 +64,7 @@ public:
 
 private:
   // Findings and their places.
-  void say(const Rule& rule, Span span, std::string message, std::string help = {});
+  void say(const Rule& rule, Span span, Message message, Message help = {});
   bool failed() const { return any_error(out_.findings); }
   /// `<name` in the text.
   Span place(const pugi::xml_node& node) const;

@@ -12,6 +12,19 @@ double rounded_cm(double cm) {
   return std::round(cm * 1e6) / 1e6 + 0.0;
 }
 
+/// Whether a line encloses no area: none of the triangles between its first point and each next two
+/// has one.
+bool is_flat(const std::vector<Point>& ring) {
+  constexpr double least = 1e-9; // square centimetres
+  for (std::size_t i = 1; i + 1 < ring.size(); ++i) {
+    const Point first{ring[i].x - ring[0].x, ring[i].y - ring[0].y};
+    const Point second{ring[i + 1].x - ring[0].x, ring[i + 1].y - ring[0].y};
+    if (std::abs(first.x * second.y - first.y * second.x) > least)
+      return false;
+  }
+  return true;
+}
+
 } // namespace
 
 std::optional<Outlines> Reader::outlines(const Element& element) {
@@ -37,8 +50,7 @@ std::optional<Outlines> Reader::outlines(const Element& element) {
 std::optional<Outlines> Reader::points(const Element& element) {
   const auto numbers = attribute_numbers(element.node, "points");
   if (numbers.size() % 2 != 0)
-    say(rules::CourseValue, place(element.node, "points"),
-        fmt::format("`points` has {} numbers; each point needs two", numbers.size()));
+    say(rules::CourseValue, place(element.node, "points"), texts::OddPoints());
   Outline line;
   for (std::size_t i = 0; i + 1 < numbers.size() && i < 2 * most_points; i += 2)
     line.points.push_back({numbers[i], numbers[i + 1]});
@@ -75,8 +87,7 @@ std::vector<Point> Reader::placed(const Element& element, const std::vector<Poin
     const auto place_cm = element.to_cm(point);
     if (!(std::abs(place_cm.x) <= farthest_cm && std::abs(place_cm.y) <= farthest_cm)) {
       say(rules::CourseTooLarge, place(element.node),
-          fmt::format("this {} reaches farther than 1 km", name_of(element.role)),
-          "the drawing's `width`, `height` and `viewBox` set the length of 1 unit");
+          element.role == Role::Zone ? texts::FarZone() : texts::FarWall(), texts::SetsUnit());
       return {};
     }
     out.push_back(place_cm);
@@ -84,35 +95,32 @@ std::vector<Point> Reader::placed(const Element& element, const std::vector<Poin
   points_ += out.size();
   if (points_ > most_points && !stop_) {
     stop_ = true;
-    say(rules::CourseTooLarge, place(element.node),
-        fmt::format("walls and zones have more than {} points", most_points),
-        "in Inkscape: Path > Simplify, or draw them with fewer points");
+    say(rules::CourseTooLarge, place(element.node), texts::ManyPoints(most_points),
+        texts::Simplify());
   }
   return out;
 }
 
 void Reader::wall(const Element& element) {
-  constexpr std::string_view help = "draw it with straight pieces, or flatten it: "
-                                    "Extensions > Modify Path > Flatten Bezier";
   if (is_round(element))
     return say(rules::CourseCurvedWall, place(element.node),
-               fmt::format("a wall cannot be a {}", element.name), std::string(help));
+               element.name == "circle" ? texts::WallIsCircle() : texts::WallIsEllipse(),
+               texts::FlattenIt());
   const auto said = out_.findings.size();
   const auto lines = outlines(element);
   if (!lines)
     return refuse(element);
+  if (lines->curve && element.name == "path")
+    return say(rules::CourseCurvedWall, place(element.node, "d", *lines->curve),
+               texts::WallIsCurved(), texts::FlattenIt());
   if (lines->curve)
-    return say(rules::CourseCurvedWall,
-               element.name == "path" ? place(element.node, "d", *lines->curve)
-                                      : place(element.node, "rx"),
-               element.name == "path" ? "this part of the wall is curved"
-                                      : "the corners of this wall are rounded",
-               std::string(element.name == "path" ? help : "remove `rx` and `ry`"));
+    return say(rules::CourseCurvedWall, place(element.node, "rx"), texts::CornersRound(),
+               texts::RemoveRounding());
   const auto before = pieces_.size();
   for (const auto& line : lines->lines)
     add_pieces(placed(element, line.points), line.closed);
   if (pieces_.size() == before && out_.findings.size() == said)
-    say(rules::CourseShape, place(element.node), "a wall of zero length");
+    say(rules::CourseShape, place(element.node), texts::WallHasNoLength());
 }
 
 void Reader::add_pieces(const std::vector<Point>& points, bool closed) {
@@ -130,11 +138,9 @@ void Reader::zone(const Element& element) {
   Zone zone;
   zone.id = element.node.attribute("id").value();
   if (zone.id.empty())
-    say(rules::CourseZone, place(element.node), "missing zone `id`",
-        "give it one, such as `id=\"goal\"`, by which tests can name it");
+    say(rules::CourseZone, place(element.node), texts::NoId(), texts::GiveId());
   else if (!ids_.insert(zone.id).second)
-    say(rules::CourseZone, place(element.node, "id"),
-        fmt::format("duplicate zone id `{}`", zone.id), "each zone needs its own id");
+    say(rules::CourseZone, place(element.node, "id"), texts::DuplicateId(zone.id), texts::OwnId());
   if (is_round(element))
     round_zone(element, zone);
   else if (const auto lines = element.name == "line" ? std::nullopt : outlines(element))
@@ -142,10 +148,10 @@ void Reader::zone(const Element& element) {
       zone.rings.push_back(placed(element, line.points));
   else
     return refuse(element);
-  std::erase_if(zone.rings, [](const auto& ring) { return ring.size() < 3; });
+  std::erase_if(zone.rings, is_flat);
   if (zone.rings.empty()) {
     if (out_.findings.size() == said)
-      say(rules::CourseShape, place(element.node), "this zone encloses no area");
+      say(rules::CourseShape, place(element.node), texts::ZoneHasNoArea());
     return;
   }
   zone.fill =
@@ -194,9 +200,7 @@ void Reader::start(const Element& element) {
       return refuse(element);
     if (lines->lines.size() != 1 || lines->lines.front().closed ||
         lines->lines.front().points.size() < 2)
-      return say(rules::CourseStart, arrow.span, "this shape gives no direction for the ball",
-                 "a start is a circle, or an arrow: one line or open path from its tail to its "
-                 "head");
+      return say(rules::CourseStart, arrow.span, texts::ShapeFacesNowhere(), texts::StartIsArrow());
     auto tail = lines->lines.front().points.front();
     auto head = lines->lines.front().points.back();
     const auto has = [&](const char* marker) {
@@ -213,8 +217,8 @@ void Reader::start(const Element& element) {
 
 bool Reader::find_start() {
   if (starts_.empty()) {
-    say(rules::CourseStart, place(document_.document_element()), "the course has no start",
-        "add one: `<circle class=\"start\" cx=\"10\" cy=\"10\" r=\"4\"/>`");
+    say(rules::CourseStart, place(document_.document_element()), texts::NoStart(),
+        texts::AddStart("<circle class=\"start\" cx=\"10\" cy=\"10\" r=\"4\"/>"));
     return false;
   }
   auto start = starts_.front();
@@ -226,15 +230,13 @@ bool Reader::find_start() {
     start.toward = Point{circle.place.x + arrow.toward->x - arrow.place.x,
                          circle.place.y + arrow.toward->y - arrow.place.y};
   } else if (starts_.size() > 1) {
-    say(rules::CourseStart, starts_[1].span,
-        fmt::format("the course has {} starts", starts_.size()), "a ball has one start");
+    say(rules::CourseStart, starts_[1].span, texts::ManyStarts(starts_.size()), texts::OneStart());
     return false;
   }
   const Point way{start.toward->x - start.place.x, start.toward->y - start.place.y};
   const double length = std::hypot(way.x, way.y);
   if (!(length > 0) || !std::isfinite(length)) {
-    say(rules::CourseStart, start.span, "this start gives no direction for the ball",
-        "its first and last points coincide");
+    say(rules::CourseStart, start.span, texts::StartFacesNowhere(), texts::PointsCoincide());
     return false;
   }
   move_to(start, {way.x / length, way.y / length});
@@ -256,10 +258,8 @@ void Reader::move_to(const Arrow& start, Point ahead) {
     out_.course.walls.push_back(wall);
   }
   if (narrow)
-    say(rules::CourseNarrow, start.span,
-        fmt::format("a wall is less than {} cm, the radius of the ball, from the start",
-                    spec::ball::radius),
-        "move the start or the wall");
+    say(rules::CourseNarrow, start.span, texts::WallIsNear(fmt::format("{}", spec::ball::radius)),
+        texts::MoveStart());
   for (auto& zone : out_.course.zones) {
     for (auto& ring : zone.rings)
       for (auto& point : ring)

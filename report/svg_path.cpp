@@ -1,11 +1,11 @@
 #include "report/svg_path.h"
 
 #include "base/text/text.h"
+#include "report/texts.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <fmt/format.h>
 #include <numbers>
 
 namespace orb::report::svg {
@@ -101,7 +101,7 @@ public:
     return text_[at_++] == '1';
   }
   /// What stands here up to a blank, as a mistake shows it.
-  Mistake mistake(std::string_view wanted, std::string help) const {
+  Mistake mistake(Message wanted, Message help) const {
     auto end = at_;
     while (end < text_.size() && !is_gap(text_[end]) && text_[end] != ',' && end - at_ < 20)
       ++end;
@@ -110,8 +110,8 @@ public:
     end = std::max(end, std::min(at_ + 1, text_.size()));
     const auto seen = text_.substr(at_, end - at_);
     return {{at(), static_cast<std::uint32_t>(end)},
-            seen.empty() ? fmt::format("missing {} at the end", wanted)
-                         : fmt::format("expected {}, found `{}`", wanted, seen),
+            seen.empty() ? texts::MissingAtEnd(std::move(wanted))
+                         : texts::Found(texts::Expected(std::move(wanted)), seen),
             std::move(help)};
   }
 
@@ -157,10 +157,6 @@ constexpr auto functions = std::to_array<Function>({
 });
 // clang-format on
 
-constexpr std::string_view transform_help =
-    "a transform is translate(x y), rotate(degrees), scale(factor), matrix(a b c d e f) or several "
-    "of these";
-
 /// Reads path data into lines: the commands of SVG, and where the pen is.
 class Path {
 public:
@@ -171,9 +167,11 @@ public:
     while (!scan_.done() && !out_.mistake) {
       const char command = scan_.peek();
       if (!is_letter(command)) {
-        fail("a command such as M or L");
+        fail(texts::ACommand());
       } else if (first_ && to_lower(command) != 'm') {
-        fail("M");
+        fail(Message::as_is("M"));
+      } else if (std::string_view("MLHVZCSQTA").find(to_upper(command)) == std::string_view::npos) {
+        fail(texts::OneCommandOf());
       } else {
         begin_ = scan_.at();
         scan_.skip();
@@ -221,9 +219,8 @@ private:
     case 'Q': return quadratic(point());
     case 'T': return quadratic(last_ == 'Q' || last_ == 'T' ? mirrored() : pen_);
     case 'A': return arc();
-    default: break;
+    default: return;
     }
-    fail("one of M, L, H, V, Z, C, S, Q, T and A");
   }
 
   double coordinate(double from) {
@@ -231,7 +228,7 @@ private:
       return 0;
     const auto value = scan_.number();
     if (!value)
-      fail("a number");
+      fail(texts::ANumber());
     return from + value.value_or(0);
   }
   Point point() {
@@ -256,7 +253,7 @@ private:
     if (out_.lines.back().closed) // after Z the next line begins where the last one did
       start_line(out_.lines.back().points.front());
     if (++points_ > most_points_)
-      return fail(fmt::format("the end after {} points", most_points_));
+      return fail(texts::EndAfter(most_points_), texts::Simplify());
     out_.lines.back().points.push_back(to);
     pen_ = to;
   }
@@ -371,13 +368,13 @@ private:
       return false;
     const auto value = scan_.flag();
     if (!value)
-      fail("0 or 1");
+      fail(texts::ZeroOrOne());
     return value.value_or(false);
   }
 
-  void fail(std::string_view wanted) {
+  void fail(Message wanted, Message help = texts::PathsAre()) {
     if (!out_.mistake)
-      out_.mistake = scan_.mistake(wanted, "a path is commands with numbers, as in `M0 0L50 0V30`");
+      out_.mistake = scan_.mistake(std::move(wanted), std::move(help));
   }
 
   Scanner scan_;
@@ -406,7 +403,7 @@ Numbers read_numbers(std::string_view text) {
   while (!scan.done()) {
     const auto value = scan.number();
     if (!value) {
-      out.mistake = scan.mistake("a number", "separate the numbers with spaces or commas");
+      out.mistake = scan.mistake(texts::ANumber(), texts::PartNumbers());
       return out;
     }
     out.values.push_back(*value);
@@ -437,7 +434,7 @@ Transform read_transform(std::string_view text) {
       values[count++] = *value;
     }
     if (!opened || !scan.take(')') || count < found->least || count > found->most) {
-      out.mistake = before.mistake("a transform", std::string(transform_help));
+      out.mistake = before.mistake(texts::ATransform(), texts::TransformsAre());
       return out;
     }
     out.matrix = out.matrix * found->matrix(values, count);

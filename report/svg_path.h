@@ -1,10 +1,10 @@
 #pragma once
 
+#include "base/message.h"
 #include "base/source.h"
 #include "vm/body/body.h"
 
 #include <optional>
-#include <string>
 #include <string_view>
 #include <vector>
 
@@ -30,8 +30,8 @@ struct Matrix {
 /// What is wrong in an attribute: the bytes of it, what was seen and what helps.
 struct Mistake {
   Span span;
-  std::string message;
-  std::string help;
+  Message message;
+  Message help;
 };
 
 /// A line through points; a ring where it is closed.

@@ -112,7 +112,7 @@ std::string story(const Ending& ending) {
   return told;
 }
 
-const std::string& help_of(const ProgramError& fault) {
+const Message& help_of(const ProgramError& fault) {
   return fault.cause.help.empty() ? fault.help : fault.cause.help;
 }
 
@@ -125,12 +125,13 @@ std::string render(const ProgramError& fault, Style style) {
   auto text = fmt::format("{}{}: {}: {}{}{}{}\n", shown_name(fault.file), place,
                           style.paint(Role::Error, "error"), line, spec::info(fault.code).text,
                           cause.seen.empty() ? "" : ": ", cause.seen);
-  if (const auto& details = cause.seen.empty() ? fault.finding : cause.variables; !details.empty())
+  if (const auto details = cause.seen.empty() ? in_english(fault.finding) : cause.variables;
+      !details.empty())
     text += fmt::format("  {}\n", details);
   if (!cause.aside.empty())
     text += fmt::format("  note: {}\n", cause.aside);
   if (const auto& help = help_of(fault); !help.empty())
-    text += fmt::format("  help: {}\n", help);
+    text += fmt::format("  help: {}\n", in_english(help));
   return text;
 }
 

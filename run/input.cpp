@@ -6,7 +6,6 @@
 #include "base/text/text.h"
 #include "base/text/utf8.h"
 #include "compiler/check.h"
-#include "compiler/text/parse.h"
 #include "report/course.h"
 
 #include <algorithm>
@@ -35,19 +34,17 @@ bool is_built(std::string_view text) {
   return text.ends_with('\0');
 }
 
-void read_program(Input& input, const compiler::Target& target, Lint lint) {
-  auto checked = compiler::check(input.source->text(), target);
-  // A file that is not a program at all (empty, binary, huge) is of no use, linted or not.
-  if (lint == Lint::On || !checked.image_bytes)
-    input.findings = std::move(checked.diagnostics);
-  auto image = compiler::build_image(checked.program, compiler::Packing::Plain);
+void read_program(Input& input) {
+  auto read = compiler::read(input.source->text());
+  auto image = compiler::build_image(read.program, compiler::Packing::Plain);
   if (is_built(input.source->text()))
     image.bytes = input.source->text();
   auto lines = line_map(input.source->name(), image);
-  input.program = Program{std::move(checked.program), std::move(image), std::move(lines), nullptr};
+  input.errors.push_back({input.source.get(), std::move(read.diagnostics), {}});
+  input.program = Program{std::move(read.program), std::move(image), std::move(lines), nullptr};
 }
 
-void read_macro_source(Input& input, Lint lint) {
+void read_macro_source(Input& input) {
   auto assembly = assembler::assemble(*input.source);
   for (const auto& macro : assembly.macros) {
     Macro read{macro.name.empty() ? std::string(stem(input.source->name())) : macro.name,
@@ -60,55 +57,50 @@ void read_macro_source(Input& input, Lint lint) {
                                        : input.source->position(command.span.begin).line);
     input.macros.push_back(std::move(read));
   }
-  input.findings =
-      lint == Lint::On ? assembler::check(*input.source) : std::move(assembly.diagnostics);
-}
-
-/// Without the linter only what keeps a program from becoming lines is told.
-std::vector<Diagnostic> told(std::vector<Diagnostic> found, Lint lint) {
-  if (lint == Lint::Off)
-    std::erase_if(found, [](const Diagnostic& one) { return !keeps_from_building(one); });
-  return found;
+  input.errors.push_back({input.source.get(), std::move(assembly.diagnostics), {}});
 }
 
 /// The macros of a file that a program uses: those that it can call.
 Input used_macros(const structured::MacroFile& file) {
   Input used;
   used.source = std::make_unique<Source>(file.path, file.text);
-  read_macro_source(used, Lint::Off);
+  read_macro_source(used);
+  used.checked->files = used.errors; // more is not said of a file that was not handed in
   std::erase_if(used.macros, [](const Macro& macro) { return !macro.has_id; });
   return used;
 }
 
-void read_structured(Input& input, const compiler::Target& target, Lint lint,
-                     structured::Files& files, const std::vector<std::string>& kept,
+void read_structured(Input& input, structured::Files& files, const std::vector<std::string>& kept,
                      structured::Shape shape) {
   const auto& name = input.source->name();
   const auto compile = [&](structured::Shape one) {
     return std::make_unique<structured::Compiled>(
-        structured::compile(name, name, input.source->text(), target, files, kept, one));
+        structured::compile(name, name, input.source->text(), input.target, files, kept, one));
   };
   auto compiled = compile(shape);
   if (shape == structured::Shape::Steppable && compiled->has_errors())
     compiled = compile(structured::Shape::Shortest);
   auto found = structured::findings_by_file(compiled->program);
-  input.findings = told(std::move(found.front()), lint);
+  if (!compiled->has_errors() && !compiled->runs) // fine by itself, but nothing to run or to send
+    found.front().push_back(structured::nothing_to_run());
+  auto& all = input.checked->files; // the compiler has checked it on the way
+  all.push_back({input.source.get(), std::move(found.front()), {}});
   for (std::size_t i = 1; i < found.size(); ++i) {
     const auto& file = compiled->program.files[i];
     auto text = compiled->program.text.substr(file.begin, file.end - file.begin);
-    input.included.push_back(
-        {std::make_unique<Source>(file.name, std::move(text)), told(std::move(found[i]), lint)});
+    input.included.push_back(std::make_unique<Source>(file.name, std::move(text)));
+    all.push_back({input.included.back().get(), std::move(found[i]), {}});
   }
-  if (compiled->has_errors())
+  input.errors = all;
+  for (auto& file : input.errors)
+    std::erase_if(file.diagnostics,
+                  [](const Diagnostic& one) { return !keeps_from_building(one); });
+  if (compiled->has_errors() || !compiled->runs)
     return;
-  if (!compiled->runs) { // fine by itself, but there is nothing to run or to send
-    input.findings.push_back(structured::nothing_to_run());
-    return;
-  }
   for (const auto& file : compiled->program.macro_files)
     input.used.push_back(used_macros(file));
-  auto parsed = compiler::parse(compiled->robot.text);
-  auto image = compiler::build_image(parsed, compiler::Packing::Packed);
+  auto parsed = structured::take_lines(*compiled);
+  auto image = std::move(compiled->image);
   auto lines = line_map(*compiled);
   input.program =
       Program{std::move(parsed), std::move(image), std::move(lines), std::move(compiled)};
@@ -134,6 +126,7 @@ tl::expected<void, Failure> read_macro_bytes(Input& input, Content content) {
   if (const auto listing = protocol::decode_macro_body(macro.image.body); listing.error)
     return wrong(*listing.error);
   input.macros.push_back(std::move(macro));
+  input.checked->files.push_back({input.source.get(), {}, {}}); // there is no source to check
   return {};
 }
 
@@ -236,14 +229,13 @@ std::string Program::where(std::uint32_t robot_line) const {
 }
 
 bool Input::has_errors() const {
-  return any_error(findings) ||
-         std::any_of(included.begin(), included.end(),
-                     [](const Included& file) { return any_error(file.findings); });
+  return std::any_of(errors.begin(), errors.end(),
+                     [](const FileFindings& file) { return any_error(file.diagnostics); });
 }
 
 tl::expected<Input, Failure> read_input(std::string name, std::string text,
                                         std::string_view language, const compiler::Target& target,
-                                        Lint lint, structured::Files& files,
+                                        structured::Files& files,
                                         const std::vector<std::string>& kept,
                                         structured::Shape shape) {
   const auto content = content_of(name, language);
@@ -251,10 +243,11 @@ tl::expected<Input, Failure> read_input(std::string name, std::string text,
     return tl::unexpected(unknown_content(name));
   Input input;
   input.source = std::make_unique<Source>(std::move(name), std::move(text));
+  input.target = target;
   switch (content.value_or(Content::Basic)) {
-  case Content::Basic: read_program(input, target, lint); break;
-  case Content::Structured: read_structured(input, target, lint, files, kept, shape); break;
-  case Content::MacroSource: read_macro_source(input, lint); break;
+  case Content::Basic: read_program(input); break;
+  case Content::Structured: read_structured(input, files, kept, shape); break;
+  case Content::MacroSource: read_macro_source(input); break;
   case Content::MacroBody:
   case Content::MacroImage:
     if (auto read = read_macro_bytes(input, *content); !read)
@@ -262,6 +255,21 @@ tl::expected<Input, Failure> read_input(std::string name, std::string text,
     break;
   }
   return input;
+}
+
+const std::vector<FileFindings>& findings(const Input& input) {
+  auto& checked = *input.checked;
+  std::call_once(checked.once, [&] {
+    if (!checked.files.empty())
+      return;
+    checked.files = input.errors;
+    auto& found = checked.files.front().diagnostics;
+    if (!input.program)
+      found = assembler::check(*input.source);
+    else if (found.empty()) // it is a program
+      found = compiler::check(input.program->parsed, input.target);
+  });
+  return checked.files;
 }
 
 const Input* first_with_program(std::span<const Input> inputs) {

@@ -12,6 +12,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <span>
 #include <string>
@@ -47,10 +48,10 @@ std::optional<Language> language_of(std::string_view name, std::string_view lang
 /// number `basic`, with a dot `macro`, else `structured`.
 std::string_view language_of_text(std::string_view text);
 
-/// A source in its language: programs and macro source, not bytes.
+/// A source in its language: programs and macro source, not bytes. Courses and tests have none.
 struct SourceFile {
   std::string path;
-  Language language = Language::Basic;
+  std::optional<Language> language;
   Source source;
   bool is_bytes = false; ///< the file holds a macro's bytes, and the source is made from them
 };
@@ -90,38 +91,43 @@ struct Macro {
                                             ///< written; empty for bytes
 };
 
-/// A file that a structured program includes.
-struct Included {
-  std::unique_ptr<Source> source;
-  std::vector<Diagnostic> findings;
+/// What findings() has found, for whoever asks next.
+struct Checked {
+  std::once_flag once;
+  std::vector<FileFindings> files; ///< empty before somebody asks, if reading does not tell all
 };
 
-/// One file: a program, or one or more macros, and the findings about it. With an error among
-/// them, what else is there is good only for a look.
+/// One file: a program, or one or more macros.
 struct Input {
   std::unique_ptr<Source> source;
+  compiler::Target target; ///< what findings() checks a program for
   std::optional<Program> program;
   std::vector<Macro> macros;
-  std::vector<Diagnostic> findings;
-  std::vector<Included> included; ///< in the order of Program::lines.files, after the source
-  std::vector<Input> used;        ///< the macro files that go along with the program
+  /// In the order of Program::lines.files, after the source: what a structured program includes.
+  std::vector<std::unique_ptr<Source>> included;
+  std::vector<Input> used; ///< the macro files that go along with the program
+  /// What reading it told, about the source and then each included file: why it cannot be built.
+  /// With an error among them, what else is there is good only for a look.
+  std::vector<FileFindings> errors;
+  std::unique_ptr<Checked> checked = std::make_unique<Checked>();
 
   bool has_errors() const;
 };
 
-/// What is said about a source besides that it can be used at all.
-enum class Lint : std::uint8_t { On, Off };
-
-/// Reads the content of the file `name`. Bytes that are not a macro are a failure; mistakes of a
-/// source are findings. A name that says nothing will do where the text is a built image. What a
-/// structured program names is read through `files`, its paths counting from `name`; its variables
-/// `kept` hold their values to the end (structured/compile.h). One that does not fit while it is
-/// steppable becomes the shortest.
+/// Reads the content of the file `name`, without a check. Bytes that are not a macro are a failure;
+/// mistakes of a source are findings. A name that says nothing will do where the text is a built
+/// image. What a structured program names is read through `files`, its paths counting from `name`;
+/// its variables `kept` hold their values to the end (structured/compile.h). One that does not fit
+/// while it is steppable becomes the shortest.
 tl::expected<Input, Failure> read_input(std::string name, std::string text,
                                         std::string_view language, const compiler::Target& target,
-                                        Lint lint, structured::Files& files,
+                                        structured::Files& files,
                                         const std::vector<std::string>& kept = {},
                                         structured::Shape shape = structured::Shape::Shortest);
+
+/// All that is to be said about an input: of the source, then of each included file. Whoever asks
+/// first, in whichever thread, has it checked.
+const std::vector<FileFindings>& findings(const Input& input);
 
 /// The first input that holds a program; null where none does.
 const Input* first_with_program(std::span<const Input> inputs);

@@ -3,6 +3,7 @@
 #include "assembler/lint/lint.h"
 #include "assembler/text/rules.h"
 #include "compiler/text/rules.h"
+#include "run/texts.h"
 
 #include <fmt/format.h>
 #include <utility>
@@ -54,9 +55,7 @@ public:
         continue;
       Diagnostic finding;
       finding.rule = &assembler::rules::Executive;
-      finding.message = fmt::format("`{}`, its command {}, needs macro executive {}; the target "
-                                    "has {}",
-                                    row.mnemonic, n + 1, row.executive, executive);
+      finding.message = texts::CommandNeedsExecutive(row.mnemonic, n + 1, row.executive, executive);
       all_.push_back({nullptr, macro.name, std::move(finding)});
     }
   }
@@ -73,7 +72,7 @@ void add_structured(Lacks& lacks, const Input& input, const compiler::Target& ta
   const auto compiled = structured::compile(name, name, input.source->text(), target, files);
   const auto found = structured::findings_by_file(compiled.program);
   for (std::size_t i = 0; i < found.size() && i <= input.included.size(); ++i)
-    lacks.add(i == 0 ? *input.source : *input.included[i - 1].source, found[i]);
+    lacks.add(i == 0 ? *input.source : *input.included[i - 1], found[i]);
 }
 
 } // namespace
@@ -110,8 +109,8 @@ std::string in_words(std::span<const Lack> lacks, const uploader::Greeting& gree
   }
   const auto more =
       lacks.size() > 1 ? fmt::format(" (and {} more)", lacks.size() - 1) : std::string();
-  return fmt::format("nothing was sent: {}: {}{}; the ball has {}", place, finding.message, more,
-                     describe_firmware(greeting));
+  return fmt::format("nothing was sent: {}: {}{}; the ball has {}", place,
+                     in_english(finding.message), more, describe_firmware(greeting));
 }
 
 } // namespace orb::run

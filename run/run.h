@@ -90,17 +90,17 @@ struct ProgramError {
   std::string file;
   Position place{0, 0}; ///< line 0: the file has no such line
   Cause cause;
-  std::string finding; ///< what the linter says of that line; may be empty
-  std::string help;    ///< and what to write; may be empty
+  Message finding; ///< what the linter says of that line; may be empty
+  Message help;    ///< and what to write; may be empty
 };
 
 /// What is known of a fault in a program from its source, and from the machine that stopped there
 /// where that is not null.
-ProgramError explain(const Input& input, const compiler::Target& target, int robot_line,
-                     spec::BasicError code, const vm::Machine* machine);
+ProgramError explain(const Input& input, int robot_line, spec::BasicError code,
+                     const vm::Machine* machine);
 
 /// What to write instead: of the value that was wrong, else of what the linter says; may be empty.
-const std::string& help_of(const ProgramError& fault);
+const Message& help_of(const ProgramError& fault);
 
 /// The error as people read it: a line that begins with its place, and details below.
 std::string render(const ProgramError& fault, Style style);

@@ -209,7 +209,7 @@ void describe(std::span<const Input> inputs, const Options& options, report::Jou
       continue;
     const int file = journey.add_file(source.name(), std::string(source.text()));
     for (const auto& other : input.included)
-      journey.add_file(other.source->name(), std::string(other.source->text()));
+      journey.add_file(other->name(), std::string(other->text()));
     if (input.program && std::exchange(first, false)) {
       journey.tell_places(input.program->compiled ? report::Told::Source : report::Told::RobotLine);
       for (const auto& [line, place] : input.program->lines.places)

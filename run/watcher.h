@@ -183,7 +183,7 @@ private:
   /// The error with what the source and the machine, which still stands there, say of it.
   const ProgramError& add_fault(const vm::event::Error& error) {
     return faults_.emplace_back(run::explain(*load_.programs[in_first_program() ? 0 : 1].input,
-                                             target_, error.line, error.code, &ball_->machine()));
+                                             error.line, error.code, &ball_->machine()));
   }
 
   bool in_first_program() const {

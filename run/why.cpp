@@ -1,11 +1,9 @@
 #include "run/why.h"
 
-#include "compiler/check.h"
 #include "compiler/lint/reading.h"
 #include "compiler/lint/sensor_tests.h"
 #include "compiler/text/rules.h"
 #include "run/start.h"
-#include "structured/compile.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -55,22 +53,18 @@ const Diagnostic* find(std::span<const Diagnostic> findings, std::span<const Rul
   return nullptr;
 }
 
-std::string from_linter(const Input& input, const Options& options, const Ending& ending) {
+std::string from_linter(const Input& input, const Ending& ending) {
   const auto wanted = suspects(ending);
   if (wanted.empty())
     return {};
-  const auto* compiled = input.program->compiled.get();
-  const auto checked = compiled == nullptr
-                           ? compiler::check(input.source->text(), options.target).diagnostics
-                           : structured::findings_by_file(compiled->program).front();
-  const auto* found = find(checked, wanted);
+  const auto* found = find(findings(input).front().diagnostics, wanted);
   if (found == nullptr)
     return {};
   const auto place = input.source->position(found->span.begin);
   const auto where = found->basic_line
                          ? fmt::format("line {}", *found->basic_line)
                          : fmt::format("{}:{}:{}", input.source->name(), place.line, place.column);
-  return sentence(where, found->message, found->help);
+  return sentence(where, in_english(found->message), in_english(found->help));
 }
 
 /// A macro that the program starts by its number and that nobody has brought.
@@ -134,7 +128,7 @@ std::string unset_timer(const Program& program) {
 
 } // namespace
 
-std::string why(std::span<const Input> inputs, const Options& options, const Ending& ending) {
+std::string why(std::span<const Input> inputs, const Ending& ending) {
   const auto* input = first_with_program(inputs);
   if (input == nullptr)
     return {};
@@ -144,7 +138,7 @@ std::string why(std::span<const Input> inputs, const Options& options, const End
   if (ending.reason == Reason::End)
     if (auto macro = missing_macro(*input->program, load_of(inputs)); !macro.empty())
       return macro;
-  return from_linter(*input, options, ending);
+  return from_linter(*input, ending);
 }
 
 } // namespace orb::run

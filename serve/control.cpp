@@ -1,6 +1,7 @@
 #include "serve/control.h"
 
 #include "base/duration.h"
+#include "base/render.h"
 #include "base/text/suggest.h"
 #include "base/text/text.h"
 #include "base/text/utf8.h"
@@ -39,9 +40,7 @@ tl::expected<decltype(Control::what), std::string> read_event(std::string_view t
   vm::StimulusScript script;
   vm::read_stimulus_line(source, 1, script);
   if (!script.diagnostics.empty()) {
-    const auto& wrong = script.diagnostics.front();
-    return tl::unexpected(to_printable(
-        wrong.help.empty() ? wrong.message : fmt::format("{}; {}", wrong.message, wrong.help)));
+    return tl::unexpected(to_printable(in_one_line(script.diagnostics.front())));
   }
   if (script.events.empty())
     return tl::unexpected(not_a_line(text));

@@ -16,6 +16,7 @@
 #include "structured/text/read.h"
 #include "structured/text/rules.h"
 #include "structured/text/silence.h"
+#include "structured/text/texts.h"
 #include "structured/text/words.h"
 
 #include <algorithm>
@@ -53,35 +54,33 @@ void report_crowd(Compiled& compiled) {
     ++listed;
   }
   const auto& statement = program.statements[compiled.code.lines[letters.crowded_line].origin];
-  program.diagnostics.push_back(
-      finding(rules::TooManyVariables, statement.span,
-              fmt::format("{} variables are live at once here; the robot has {} letters for them",
-                          letters.crowd.size(), letters.available),
-              fmt::format("in use: {}", names)));
+  program.diagnostics.push_back(finding(rules::TooManyVariables, statement.span,
+                                        texts::LiveAtOnce(letters.crowd.size(), letters.available),
+                                        texts::InUse(std::move(names))));
 }
 
 bool report_chain(Compiled& compiled, const Plan& plan) {
   if (plan.chain.empty())
     return false;
   auto& program = compiled.program;
-  std::string chain;
+  Message chain;
   constexpr std::size_t told = 6; // names; of a long chain the first and the last
   for (std::size_t i = 0; i < plan.chain.size(); ++i) {
     const auto& routine = compiled.names.routines[plan.chain[i]];
     if (const auto left_out = plan.chain.size() - told;
         plan.chain.size() > told + 1 && i == told / 2) {
-      chain += fmt::format(" calls … ({} more)", left_out);
+      chain = texts::CallsMore(std::move(chain), left_out);
       i += left_out - 1;
       continue;
     }
-    chain += fmt::format("{}`{}`", chain.empty() ? "" : " calls ",
-                         program.name(compiled.names.symbols[routine.symbol].name));
+    const auto name = program.name(compiled.names.symbols[routine.symbol].name);
+    chain = chain.empty() ? texts::Quoted(name) : texts::Calls(std::move(chain), name);
   }
   const auto& last = compiled.names.symbols[compiled.names.routines[plan.chain.back()].symbol];
-  program.diagnostics.push_back(finding(rules::CallDepth, last.span,
-                                        fmt::format("calls are more than {} levels deep: {}",
-                                                    spec::value_of(spec::Limit::GosubDepth), chain),
-                                        "inline one of them into its caller"));
+  program.diagnostics.push_back(
+      finding(rules::CallDepth, last.span,
+              texts::CallsTooDeep(spec::value_of(spec::Limit::GosubDepth), std::move(chain)),
+              texts::InlineOne()));
   return true;
 }
 
@@ -102,14 +101,13 @@ Diagnostic wrong_index(const Compiled& compiled, const WrongIndex& wrong) {
   const auto& statement = program.statements[wrong.statement];
   const auto elements = elements_of(compiled, statement);
   if (elements.size() != 1)
-    return finding(rules::ArrayIndex, statement.span,
-                   "this always accesses an array out of bounds");
+    return finding(rules::ArrayIndex, statement.span, texts::OutOfBounds());
   const auto& array = compiled.names.symbols[compiled.names.of_node[elements.front()]];
-  const auto found = wrong.index.constant() ? fmt::format("found {}", wrong.index.lo - array.base)
-                                            : std::string("but the index is never one of them");
-  return finding(
-      rules::ArrayIndex, program.nodes[elements.front() - 1].span,
-      fmt::format("`{}` has elements 1 to {}, {}", program.name(array.name), array.value, found));
+  const auto name = program.name(array.name);
+  return finding(rules::ArrayIndex, program.nodes[elements.front() - 1].span,
+                 wrong.index.constant()
+                     ? texts::HasElements(name, 1, array.value, wrong.index.lo - array.base)
+                     : texts::NeverAnElement(name, array.value));
 }
 
 /// Says what can only stop the program, wherever the statement runs.
@@ -211,8 +209,7 @@ void compile(Compiled& compiled, const compiler::Target& target,
              const std::vector<std::string>& kept, Shape shape) {
   if (compiled.program.statements.empty() && !compiled.has_errors())
     compiled.program.diagnostics.push_back(
-        finding(rules::NothingToRun, {0, 0}, "the file has no statements",
-                "write at least one line such as `print \"hello\"`"));
+        finding(rules::NothingToRun, {0, 0}, texts::NoStatements(), texts::WriteOneLine()));
   compiled.names = resolve(compiled.program);
   check(compiled.program, compiled.names, target);
   compiled.runs = has_program(compiled.program);
@@ -323,6 +320,12 @@ Compiled compile(std::string name, std::string path, std::string_view text,
   return compiled;
 }
 
+compiler::Program take_lines(Compiled& compiled) {
+  auto lines = std::move(compiled.lines);
+  lines.text = compiled.robot.text;
+  return lines;
+}
+
 std::optional<std::uint8_t> letter_of(const Compiled& compiled, std::string_view name) {
   const auto symbol = shared_variable(compiled.program, compiled.names, name);
   const auto variable = symbol == none ? none : code_variable(compiled.code, symbol);
@@ -332,8 +335,7 @@ std::optional<std::uint8_t> letter_of(const Compiled& compiled, std::string_view
 }
 
 Diagnostic nothing_to_run() {
-  return finding(rules::NothingToRun, {0, 0}, "the file has only declarations",
-                 "include it from a program, or add a statement outside its subs");
+  return finding(rules::NothingToRun, {0, 0}, texts::DeclarationsOnly(), texts::IncludeIt());
 }
 
 std::string readable(const Compiled& compiled) {

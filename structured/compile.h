@@ -20,6 +20,10 @@ Compiled compile(std::string name, std::string path, std::string_view text,
                  const compiler::Target& target, Files& files,
                  const std::vector<std::string>& kept = {}, Shape shape = Shape::Shortest);
 
+/// The robot's lines, parsed. They refer to `compiled`, which must stay where it is, and can be
+/// taken once.
+compiler::Program take_lines(Compiled& compiled);
+
 /// The letter that holds a variable of the whole program, 0 for A; nothing where none has that
 /// name, or where it is neither kept nor in use.
 std::optional<std::uint8_t> letter_of(const Compiled& compiled, std::string_view name);

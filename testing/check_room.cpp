@@ -2,8 +2,7 @@
 
 #include "run/room.h"
 #include "testing/text/rules.h"
-
-#include <fmt/format.h>
+#include "testing/texts.h"
 
 namespace orb::testing {
 
@@ -11,9 +10,8 @@ void check_room(SuiteFile& file, structured::Files& files) {
   auto& findings = file.file.diagnostics;
   const auto& balls = file.file.balls;
   if (!balls.empty() && file.file.program)
-    findings.push_back(finding(rules::Place, file.file.program->span,
-                               "a room cannot have a `program` besides those of its balls",
-                               "omit `program` or the balls"));
+    findings.push_back(finding(rules::Place, file.file.program->span, texts::ProgramBesideBalls(),
+                               texts::OmitProgramOrBalls()));
   std::vector<run::RoomBall> placed;
   for (const auto& ball : balls) {
     auto& one = placed.emplace_back();
@@ -23,18 +21,15 @@ void check_room(SuiteFile& file, structured::Files& files) {
     if (&ball != &balls.front()) // of the first one program_path() tells
       if (const auto path = structured::resolve_path(file.source->name(), ball.program.text);
           !files.read(path))
-        findings.push_back(finding(rules::File, ball.program.span,
-                                   fmt::format("cannot read {}", path),
-                                   "paths are relative to the folder of the test file"));
+        findings.push_back(finding(rules::File, ball.program.span, texts::CannotRead(path),
+                                   texts::FromFolderOfTest()));
   }
   for (const auto& clash : run::clashes(placed))
-    findings.push_back(
-        finding(rules::Value, balls[clash.ball].name.span,
-                clash.other ? fmt::format("`{}` starts inside `{}`", placed[clash.ball].name,
-                                          placed[*clash.other].name)
-                            : fmt::format("`{}` starts too close to the wall {}",
-                                          placed[clash.ball].name, vm::to_string(*clash.wall)),
-                "give it another place: `at X,Y`"));
+    findings.push_back(finding(
+        rules::Value, balls[clash.ball].name.span,
+        clash.other ? texts::StartsInside(placed[clash.ball].name, placed[*clash.other].name)
+                    : texts::StartsInWall(placed[clash.ball].name, vm::to_string(*clash.wall)),
+        texts::OtherPlace()));
 }
 
 } // namespace orb::testing

@@ -1,11 +1,10 @@
 #include "testing/judge.h"
 
 #include "base/text/suggest.h"
-#include "base/text/text.h"
 #include "testing/sighting.h"
+#include "testing/texts.h"
 
 #include <algorithm>
-#include <fmt/format.h>
 #include <limits>
 
 namespace orb::testing {
@@ -62,11 +61,11 @@ private:
     case Kind::Within: look_for(from, s, when.to, is_true); break;
     case Kind::At:
       if (from.t <= when.to && when.to < to)
-        decide_at(Moment{when.to, from.running}, s, fmt::format("at {}", words(when.to)), is_true);
+        decide(Moment{when.to, from.running}, s, texts::At, is_true);
       break;
     case Kind::AtEnd:
       if (to == never_ends)
-        decide_at(from, s, fmt::format("at the end, {}", words(from.t)), is_true);
+        decide(from, s, texts::AtTheEnd, is_true);
       break;
     case Kind::During:
       if (from.t <= when.to && to > when.from && to > from.t)
@@ -85,7 +84,7 @@ private:
       return;
     if (is_true) {
       if (one_.never)
-        miss(fmt::format("{} at {}", seen_of(s, at.t), words(at.t)), at);
+        miss(texts::At(seen_of(s, at.t), words(at.t)), at);
       else
         meet(at);
     } else if (const double away = off(one_, meaning_, s); away < nearest_ || best_.empty()) {
@@ -95,21 +94,22 @@ private:
     }
   }
 
-  void decide_at(const Moment& at, const Sighting& s, std::string_view moment, bool is_true) {
+  void decide(const Moment& at, const Sighting& s, const Row<Hole::Part, Hole::Name>& when,
+              bool is_true) {
     if (is_true != one_.never)
       return meet(at);
-    miss(fmt::format("{} {}", seen_of(s, at.t), moment), at);
+    miss(when(seen_of(s, at.t), words(at.t)), at);
   }
 
   void check_during(const Moment& at, const Sighting& s, bool is_true) {
     if (is_true == one_.never)
-      miss(fmt::format("{} at {}", seen_of(s, at.t), words(at.t)), at);
+      miss(texts::At(seen_of(s, at.t), words(at.t)), at);
   }
 
   /// What was seen, and of what has to last since when.
-  std::string seen_of(const Sighting& s, Duration t) const {
-    const auto text = describe(one_, meaning_, s);
-    return since_ ? fmt::format("{} for {}", text, words(t - *since_)) : text;
+  Message seen_of(const Sighting& s, Duration t) const {
+    auto seen = describe(one_, meaning_, s);
+    return since_ ? texts::LastingFor(std::move(seen), words(t - *since_)) : seen;
   }
 
   /// It was true at no moment.
@@ -117,10 +117,8 @@ private:
     if (one_.never || one_.when.kind == When::Kind::During)
       return meet();
     if (longest_ > Duration{} && nearest_ == 0)
-      return miss(fmt::format("{} for only {}, starting at {}", best_, words(longest_),
-                              words(longest_from_.t)),
-                  longest_from_);
-    miss(fmt::format("nearest {} at {}", best_, words(best_at_.t)), best_at_);
+      return miss(texts::ForOnly(best_, words(longest_), words(longest_from_.t)), longest_from_);
+    miss(texts::NearestAt(best_, words(best_at_.t)), best_at_);
   }
 
   const Expectation& one_;
@@ -129,7 +127,7 @@ private:
   Duration longest_{};
   Moment longest_from_;
   double nearest_ = infinite;
-  std::string best_;
+  Message best_;
   Moment best_at_;
 };
 
@@ -144,7 +142,7 @@ public:
       return;
     if (meaning_.zone->distance_cm({s.x, s.y}) > 0) {
       const Moment at{whole ? from.t : std::max(from.t, one_.when.from), from.running};
-      miss(fmt::format("{} at {}", describe(one_, meaning_, s), words(at.t)), at);
+      miss(texts::At(describe(one_, meaning_, s), words(at.t)), at);
     } else if (!whole && to > one_.when.to)
       meet();
   }
@@ -169,38 +167,39 @@ public:
     if (one_.word != Word::Print || certain() || !in_time(at.t))
       return;
     switch (compare(line.text)) {
-    case Pattern::Found::Yes: return happen(at, quote(line.text));
-    case Pattern::Found::No: return near(at, line.text);
+    case Pattern::Found::Yes: return happen(at, texts::Printed(shown_line(line.text)));
+    case Pattern::Found::No: return near(at, texts::Printed(shown_line(line.text)), line.text);
     case Pattern::Found::GaveUp:
       // At once: with the next lines it would be no better, and nobody would wait for it.
-      return miss(
-          fmt::format("the pattern takes too many steps on {}; simplify it", quote(line.text)), at);
+      return miss(texts::TooManySteps(shown_line(line.text)), at);
     }
   }
 
   void on_marker(const Moment& at, const vm::event::Marker& marker) override {
     if (one_.word != Word::Marker || certain() || !in_time(at.t))
       return;
-    auto text = fmt::format("marker {} of macro {}", marker.marker, marker.macro);
+    auto what = texts::Marked(marker.marker, marker.macro);
     if (marker.marker == one_.number && (one_.name.text.empty() || marker.macro == meaning_.macro))
-      return happen(at, std::move(text));
-    near(at, text);
+      return happen(at, what);
+    near(at, what);
   }
 
   void on_bump(const Moment& at, const vm::event::Bump& bump) override {
     if (one_.word != Word::Collision || certain() || !in_time(at.t))
       return;
-    happen(at, "it " + vm::words_of(bump));
+    happen(at, bump.ball.empty() ? texts::RanIntoWall(vm::to_string(bump.wall))
+                                 : texts::MetBall(bump.ball));
   }
 
   void on_error(const Moment& at, const run::ProgramError& error) override {
     if (one_.word != Word::Error || certain() || !in_time(at.t))
       return;
-    std::string text(spec::info(error.code).text);
-    if (!one_.error || *one_.error == error.code)
-      return happen(at, error.cause.seen.empty() ? text
-                                                 : fmt::format("{}: {}", text, error.cause.seen));
-    near(at, text);
+    auto text = std::string(spec::info(error.code).text);
+    if (one_.error && *one_.error != error.code)
+      return near(at, Message::as_is(std::move(text)));
+    if (!error.cause.seen.empty())
+      text += ": " + error.cause.seen;
+    happen(at, Message::as_is(std::move(text)));
   }
 
   void on_time(Duration t) override {
@@ -213,7 +212,7 @@ public:
       return;
     const auto& aborted = outcome.ending->aborted;
     if (one_.word == Word::Error && !one_.error && !aborted.empty() && in_time(outcome.over))
-      happen({outcome.over, at.running}, aborted);
+      happen({outcome.over, at.running}, Message::as_is(aborted));
     if (!certain())
       conclude();
   }
@@ -233,77 +232,79 @@ private:
     return one_.pattern->search(line);
   }
 
-  void happen(const Moment& at, std::string text) {
+  void happen(const Moment& at, const Message& what) {
     if (!one_.joined.empty() && off(one_, meaning_, sighting_) > 0) {
       if (!apart_)
-        apart_ = {fmt::format("{} while {}", text, describe(one_, meaning_, sighting_)), at};
+        apart_ = {{}, texts::While(what, describe(one_, meaning_, sighting_)), at};
       return;
     }
     ++count_;
     if (one_.never)
-      return miss(fmt::format("{} at {}", text, words(at.t)), at);
-    if (listed_.size() < most_listed)
-      listed_.push_back(words(at.t));
+      return miss(texts::At(what, words(at.t)), at);
+    if (count_ <= most_listed)
+      listed_ += (listed_.empty() ? "" : ", ") + words(at.t);
+    else if (count_ == most_listed + 1)
+      listed_ += ", …";
     last_ = at;
     if (count_ > one_.times.most)
-      miss(count_words(), at);
+      miss(how_often(), at);
     else if (count_ >= one_.times.least && one_.times.most == UINT64_MAX)
       meet(at);
   }
 
-  void near(const Moment& at, std::string_view text) {
+  void near(const Moment& at, const Message& what, std::string_view line = {}) {
     if (kept_.size() >= most_kept)
       return;
-    const auto known =
-        std::any_of(kept_.begin(), kept_.end(), [&](const auto& one) { return one.text == text; });
+    const auto known = std::any_of(kept_.begin(), kept_.end(), [&](const auto& one) {
+      return one.line == line && one.what == what;
+    });
     if (!known)
-      kept_.push_back({std::string(text.substr(0, longest_kept)), at});
+      kept_.push_back({std::string(line.substr(0, longest_kept)), what, at});
   }
 
-  std::string count_words() const {
-    auto text = count_ == 1 ? std::string("once: at ") : fmt::format("{} times: at ", count_);
-    for (std::size_t i = 0; i < listed_.size(); ++i)
-      text += (i == 0 ? "" : ", ") + listed_[i];
-    return count_ > listed_.size() ? text + ", …" : text;
+  Message how_often() const {
+    return count_ == 1 ? texts::Once(listed_) : texts::Times(count_, listed_);
   }
 
   void conclude() {
     if (one_.never || (count_ >= one_.times.least && count_ <= one_.times.most))
       return meet();
     if (count_ > 0)
-      return miss(count_words(), last_);
+      return miss(how_often(), last_);
     if (apart_)
-      return miss(fmt::format("{} at {}", apart_->text, words(apart_->at.t)), apart_->at);
+      return miss(texts::At(apart_->what, words(apart_->at.t)), apart_->at);
     const Kept* best = nearest();
     if (best == nullptr)
-      return miss(nothing() + until());
-    const auto what =
-        one_.word == Word::Print ? fmt::format("nearest {}", quote(best->text)) : best->text;
-    miss(fmt::format("{} at {}", what, words(best->at.t)), best->at);
+      return miss(nothing_in_time());
+    const auto time = words(best->at.t);
+    miss(one_.word == Word::Print ? texts::NearestAt(best->what, time)
+                                  : texts::At(best->what, time),
+         best->at);
   }
 
-  /// Up to when it was looked for, where that is not the whole run.
-  std::string until() const {
+  /// With the time in which it was looked for, where that is not the whole run.
+  Message nothing_in_time() const {
     switch (one_.when.kind) {
-    case When::Kind::Within: return fmt::format(" until {}", words(one_.when.to));
+    case When::Kind::Within: return texts::Until(nothing(), words(one_.when.to));
     case When::Kind::During:
-      return fmt::format(" from {} to {}", words(one_.when.from), words(one_.when.to));
+      return texts::FromTo(nothing(), words(one_.when.from), words(one_.when.to));
     case When::Kind::AnyTime:
     case When::Kind::At:
     case When::Kind::AtEnd: break;
     }
-    return {};
+    return nothing();
   }
 
-  std::string nothing() const {
-    return one_.word == Word::Print       ? "nothing was printed"
-           : one_.word == Word::Marker    ? "no marker was emitted"
-           : one_.word == Word::Collision ? "there was no collision"
-                                          : "no error occurred";
+  Message nothing() const {
+    return one_.word == Word::Print       ? texts::NothingPrinted()
+           : one_.word == Word::Marker    ? texts::NoMarker()
+           : one_.word == Word::Collision ? texts::NoCollision()
+                                          : texts::NoError();
   }
 
   struct Kept {
-    std::string text;
+    std::string line; ///< that was printed; empty for what else happened
+    Message what;
     Moment at;
   };
 
@@ -312,7 +313,7 @@ private:
     const Kept* best = nullptr;
     std::size_t least = 0;
     for (const auto& one : kept_) {
-      const auto distance = edit_distance(one_.text, one.text);
+      const auto distance = edit_distance(one_.text, one.line);
       if (best == nullptr || distance < least) {
         best = &one;
         least = distance;
@@ -327,7 +328,7 @@ private:
   const Expectation& one_;
   const Meaning& meaning_;
   std::uint64_t count_ = 0;
-  std::vector<std::string> listed_;
+  std::string listed_; ///< the first of their times
   std::vector<Kept> kept_;
   Sighting sighting_;         ///< what was seen last
   std::optional<Kept> apart_; ///< it happened while what is joined was not true
@@ -342,14 +343,11 @@ public:
   void on_print(const Moment& at, const PrintedLine& line) override {
     if (certain())
       return;
-    const auto& texts = one_.texts;
-    if (next_ == texts.size())
-      return miss(fmt::format("unexpected line: {} at {}", quote(line.text), words(at.t)), at);
-    if (line.text != texts[next_])
-      return miss(fmt::format("line {} is {} at {}, expected {}", next_ + 1, quote(line.text),
-                              words(at.t), quote(texts[next_])),
-                  at);
-    ++next_;
+    if (next_ == one_.texts.size())
+      return miss(texts::UnexpectedLine(shown_line(line.text), words(at.t)), at);
+    const auto& wanted = one_.texts[next_++];
+    if (line.text != wanted)
+      miss(texts::OtherLine(next_, shown_line(line.text), words(at.t), shown_line(wanted)), at);
   }
 
   void on_end(const Moment&, const Outcome&) override {
@@ -357,8 +355,7 @@ public:
       return;
     if (next_ == one_.texts.size())
       return meet();
-    miss(fmt::format("{} of {} lines; missing line {}: {}", next_, one_.texts.size(), next_ + 1,
-                     quote(one_.texts[next_])));
+    miss(texts::MissingLine(next_, one_.texts.size(), next_ + 1, shown_line(one_.texts[next_])));
   }
 
 private:
@@ -375,13 +372,12 @@ public:
     using run::Reason;
     const auto reason = outcome.ending->reason;
     if (reason == Reason::TimeLimit || reason == Reason::Input)
-      return miss(outcome.ending->waits_for.empty()
-                      ? fmt::format("it was still running at {}", words(outcome.over))
-                      : fmt::format("it is waiting for {}", outcome.ending->waits_for),
+      return miss(outcome.ending->waits_for.empty() ? texts::StillRunning(words(outcome.over))
+                                                    : texts::WaitsFor(outcome.ending->waits_for),
                   at);
     if (outcome.over <= one_.when.to)
       return meet();
-    miss(fmt::format("it ended at {}", words(outcome.over)), at);
+    miss(texts::Ended(words(outcome.over)), at);
   }
 
 private:
@@ -402,18 +398,19 @@ public:
   }
 
 private:
-  std::pair<bool, std::string> look(const Outcome& outcome) const {
+  std::pair<bool, Message> look(const Outcome& outcome) const {
     if (one_.word == Word::Distance)
       return {one_.least <= outcome.way_cm && outcome.way_cm <= one_.most,
-              fmt::format("it drove {:.1f} cm", outcome.way_cm)};
+              texts::Drove(decimal(outcome.way_cm, 1))};
     if (one_.word == Word::Lines)
-      return {static_cast<double>(outcome.lines) < one_.most, plural(outcome.lines, "line")};
+      return {static_cast<double>(outcome.lines) < one_.most,
+              counted(outcome.lines, texts::OneLine, texts::Lines)};
     if (one_.word == Word::Bytes)
       return {static_cast<double>(meaning_.packed_bytes) < one_.most,
-              fmt::format("{} bytes", meaning_.packed_bytes)};
+              texts::Bytes(meaning_.packed_bytes)};
     const auto value = outcome.ball->machine().variable(*meaning_.variable);
     return {value == static_cast<std::int32_t>(one_.most),
-            fmt::format("{} = {}", one_.name.text, value)};
+            Message::as_is(one_.name.text + " = " + std::to_string(value))};
   }
 
   const Expectation& one_;

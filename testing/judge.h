@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/message.h"
 #include "run/run.h"
 #include "testing/text/test_file.h"
 
@@ -22,7 +23,7 @@ struct Meaning {
   std::optional<std::size_t> variable; ///< of vm::Machine::variable()
   std::size_t packed_bytes = 0;        ///< of the program's image
   std::string other_ball;              ///< the name of Expectation::other_ball
-  std::string problem; ///< why it can never be met: the program has no such name; else empty
+  Message problem; ///< why it can never be met: the program has no such name; else empty
   std::vector<Meaning> joined;          ///< of Expectation::joined
   std::shared_ptr<const Meaning> other; ///< of Expectation::other
 };
@@ -89,7 +90,7 @@ public:
   Verdict verdict() const { return verdict_; }
   bool certain() const { return verdict_ != Verdict::Open; }
   /// What was seen instead, for an expectation that was missed.
-  const std::string& seen() const { return seen_; }
+  const Message& seen() const { return seen_; }
   /// Where in the run it was met or missed; nothing where that is no one moment.
   const std::optional<Moment>& moment() const { return moment_; }
 
@@ -98,7 +99,7 @@ protected:
     verdict_ = Verdict::Met;
     moment_ = moment;
   }
-  void miss(std::string seen, std::optional<Moment> moment = std::nullopt) {
+  void miss(Message seen, std::optional<Moment> moment = std::nullopt) {
     verdict_ = Verdict::Missed;
     seen_ = std::move(seen);
     moment_ = moment;
@@ -106,7 +107,7 @@ protected:
 
 private:
   Verdict verdict_ = Verdict::Open;
-  std::string seen_;
+  Message seen_;
   std::optional<Moment> moment_;
 };
 

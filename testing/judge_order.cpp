@@ -1,9 +1,9 @@
 // What comes after or before something else.
 
 #include "testing/judge.h"
+#include "testing/texts.h"
 
 #include <algorithm>
-#include <fmt/format.h>
 
 namespace orb::testing {
 namespace {
@@ -61,7 +61,7 @@ public:
       return hear([&](Judge& judge) { judge.on_end(at, outcome); });
     if (one_.never)
       return meet();
-    miss(fmt::format("the first event never happened: {}", first_->seen()), first_->moment());
+    miss(texts::FirstNeverHappened(first_->seen()), first_->moment());
   }
 
 private:
@@ -102,8 +102,7 @@ private:
     const auto lag = second_->moment()->t - begin_;
     if (lag >= *one_.lag - one_.lag_by && lag <= *one_.lag + one_.lag_by)
       return meet(second_->moment());
-    miss(fmt::format("{} later, at {}", words(lag), words(second_->moment()->t)),
-         second_->moment());
+    miss(texts::Later(words(lag), words(second_->moment()->t)), second_->moment());
   }
 
   const Expectation& one_;
@@ -161,11 +160,9 @@ private:
     const bool other_came = other_->verdict() == Verdict::Met;
     if (other_came && (!came || time_of(*other_) < time_of(*first_)))
       return never_ ? meet(other_->moment())
-                    : miss(fmt::format("the other one came first, at {}", words(time_of(*other_))),
-                           other_->moment());
+                    : miss(texts::OtherCameFirst(words(time_of(*other_))), other_->moment());
     if (came)
-      return never_ ? miss(fmt::format("it came first, at {}", words(time_of(*first_))),
-                           first_->moment())
+      return never_ ? miss(texts::ItCameFirst(words(time_of(*first_))), first_->moment())
                     : meet(first_->moment());
   }
 

@@ -3,6 +3,7 @@
 #include "base/text/suggest.h"
 #include "spec/limits.h"
 #include "testing/text/rules.h"
+#include "testing/texts.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -12,11 +13,12 @@
 namespace orb::testing {
 namespace {
 
-std::string meant(std::string_view word, const std::vector<std::string_view>& known,
-                  std::string_view what) {
-  return did_you_mean(word, known,
-                      known.empty() ? fmt::format("it has no {}s", what)
-                                    : fmt::format("it has {}", fmt::join(known, ", ")));
+/// What there is in place of a name that there is not.
+Message meant(std::string_view word, const std::vector<std::string_view>& known,
+              const Row<>& none) {
+  if (const auto near = closest(word, known); near && *near != word)
+    return texts::DidYouMean(*near);
+  return known.empty() ? none() : texts::ItHas(fmt::format("{}", fmt::join(known, ", ")));
 }
 
 std::vector<std::string_view> variables_of(const structured::Compiled& compiled) {
@@ -32,21 +34,21 @@ void find_variable(const Expectation& one, const Prepared& program, Lookup& foun
   const auto& name = one.name.text;
   const auto* first = run::first_with_program(program.inputs);
   if (first == nullptr) {
-    found.meaning.problem = "there are only macros and no program, so there are no variables";
+    found.meaning.problem = texts::OnlyMacros();
   } else if (first->program->compiled) {
     const auto& compiled = *first->program->compiled;
     if (const auto letter = structured::letter_of(compiled, name)) {
       found.meaning.variable = *letter;
     } else {
-      found.meaning.problem = fmt::format("{} has no variable `{}`", program.name, name);
-      found.help = meant(name, variables_of(compiled), "variable");
+      found.meaning.problem = texts::NoSuchVariable(program.name, name);
+      found.help = meant(name, variables_of(compiled), texts::HasNoVariables);
     }
   } else if (name.size() == 1 && name[0] >= 'A' &&
              name[0] - 'A' < spec::value_of(spec::Limit::DirectVariables)) {
     found.meaning.variable = static_cast<std::size_t>(name[0] - 'A');
   } else {
-    found.meaning.problem = fmt::format("{} has no variable `{}`", program.name, name);
-    found.help = "a program with line numbers has only the variables A to Y";
+    found.meaning.problem = texts::NoSuchVariable(program.name, name);
+    found.help = texts::OnlyAToY();
   }
   if (!found.meaning.problem.empty())
     found.rule = &rules::Variable;
@@ -61,8 +63,8 @@ void find_macro(const Expectation& one, const Prepared& program, Lookup& found) 
   std::vector<std::string_view> known;
   for (const auto& row : program.macros)
     known.push_back(row.first);
-  found.meaning.problem = fmt::format("no macro `{}` is loaded", one.name.text);
-  found.help = meant(one.name.text, known, "macro");
+  found.meaning.problem = texts::NoSuchMacro(one.name.text);
+  found.help = meant(one.name.text, known, texts::HasNoMacros);
   found.rule = &rules::Macro;
 }
 
@@ -73,15 +75,15 @@ void find_zone(const Expectation& one, const SuiteFile& file, Lookup& found) {
     return;
   found.rule = &rules::Zone;
   if (!file.course) {
-    found.meaning.problem = fmt::format("`{}` is a zone, but the file names no course", name);
-    found.help = "add `course hall.svg` at the top";
+    found.meaning.problem = texts::NoCourse(name);
+    found.help = texts::AddCourse();
     return;
   }
   std::vector<std::string_view> known;
   for (const auto& zone : file.course->zones)
     known.push_back(zone.id);
-  found.meaning.problem = fmt::format("the course has no zone `{}`", name);
-  found.help = meant(name, known, "zone");
+  found.meaning.problem = texts::NoSuchZone(name);
+  found.help = meant(name, known, texts::HasNoZones);
 }
 
 } // namespace

@@ -2,7 +2,6 @@
 
 #include "testing/suite.h"
 
-#include <string>
 #include <vector>
 
 // What the names in the expectations of a test mean.
@@ -13,7 +12,7 @@ namespace orb::testing {
 struct Lookup {
   Meaning meaning;
   const Rule* rule = nullptr; ///< of the finding, where there is a problem
-  std::string help;
+  Message help;
 };
 
 /// One word of an expectation.

@@ -35,8 +35,8 @@ std::string line_of_source(const run::Input& input, const std::string& file, std
   if (input.source->name() == file)
     return std::string(input.source->line(line));
   for (const auto& other : input.included)
-    if (other.source->name() == file)
-      return std::string(other.source->line(line));
+    if (other->name() == file)
+      return std::string(other->line(line));
   return {};
 }
 

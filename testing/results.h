@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/message.h"
 #include "base/time.h"
 #include "report/journey.h"
 
@@ -30,7 +31,7 @@ std::string_view to_string(Verdict verdict);
 struct Miss {
   std::uint32_t line = 0; ///< of the test file; of the silent `never error`: of its test
   std::string expected;   ///< as it is written: `expect near 60,0 by 12cm at end`
-  std::string seen;       ///< `nearest 18.2 cm from 60,0 at 3.1 s`
+  Message seen;           ///< `nearest 18.2 cm from 60,0 at 3.1 s`
   std::string where;      ///< what ran then: `corner.bas:4: 40 goroll 90,100,1`; may be empty
 };
 

@@ -255,10 +255,8 @@ run::Options options_of(const Suite& suite, const Group& group, std::uint64_t se
   run::Options options;
   options.bound = test.bound;
   options.seed = seed;
-  options.target = file.file.target;
+  options.target = target_of(file.file);
   options.firmware = file.file.firmware;
-  options.target.version =
-      std::min(options.target.version, spec::info(options.firmware).language());
   options.stimuli = test.stimuli;
   options.course = file.course.get();
   options.until = run::Until::Rest;

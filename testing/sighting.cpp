@@ -2,6 +2,7 @@
 
 #include "base/text/utf8.h"
 #include "spec/colours.h"
+#include "testing/texts.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,8 +11,12 @@
 
 namespace orb::testing {
 
+std::string decimal(double value, int decimals) {
+  return fmt::format("{:.{}f}", value, decimals);
+}
+
 std::string plain(double value, int decimals) {
-  auto text = fmt::format("{:.{}f}", value, decimals);
+  auto text = decimal(value, decimals);
   if (text.find('.') != std::string::npos) {
     text.erase(text.find_last_not_of('0') + 1);
     if (text.ends_with('.'))
@@ -25,11 +30,15 @@ namespace {
 /// A number with one decimal, or as many as show that it is greater than `bound`.
 std::string above(double value, double bound) {
   for (int decimals = 1; decimals < 6; ++decimals) {
-    auto text = fmt::format("{:.{}f}", value, decimals);
+    auto text = decimal(value, decimals);
     if (std::stod(text) > bound || value <= bound)
       return text;
   }
   return fmt::format("{}", value);
+}
+
+std::string speed_words(double cm_s) {
+  return decimal(cm_s, 1) + " cm/s";
 }
 
 std::string color_words(vm::Color color) {
@@ -101,33 +110,31 @@ double off_alone(const Expectation& one, const Meaning& meaning, const Sighting&
 }
 
 /// A sighting in the words of what is expected of it.
-std::string describe_alone(const Expectation& one, const Meaning& meaning, const Sighting& s) {
+Message describe_alone(const Expectation& one, const Meaning& meaning, const Sighting& s) {
   switch (one.word) {
   case Word::Near:
-    return fmt::format("{} cm from {}", above(apart(one, s), one.by),
-                       one.other_ball ? meaning.other_ball
-                                      : fmt::format("{},{}", plain(one.x, 2), plain(one.y, 2)));
+    return texts::Away(above(apart(one, s), one.by), one.other_ball
+                                                         ? meaning.other_ball
+                                                         : plain(one.x, 2) + "," + plain(one.y, 2));
   case Word::Beyond: {
     const bool x = one.side == Side::AboveX || one.side == Side::BelowX;
-    return fmt::format("{} {:.1f}", x ? 'x' : 'y', x ? s.x : s.y);
+    return x ? texts::X(decimal(s.x, 1)) : texts::Y(decimal(s.y, 1));
   }
   case Word::Inside:
   case Word::Stay: {
     const double away = meaning.zone->distance_cm({s.x, s.y});
-    return away == 0 ? fmt::format("in {}", one.name.text)
-                     : fmt::format("{} cm from {}", above(away, 0), one.name.text);
+    return away == 0 ? texts::In(one.name.text) : texts::Away(above(away, 0), one.name.text);
   }
-  case Word::Heading: return fmt::format("heading {}", plain(s.heading, 1));
-  case Word::Speed: return fmt::format("{:.1f} cm/s", s.speed);
+  case Word::Heading: return texts::Heading(plain(s.heading, 1));
+  case Word::Speed: return Message::as_is(speed_words(s.speed));
   case Word::Resting:
     if (!s.moving && !s.has_moved && !s.over)
-      return "not moved yet";
+      return texts::NotMovedYet();
     [[fallthrough]];
-  case Word::Moving:
-    return s.moving ? fmt::format("moving at {:.1f} cm/s", s.speed) : std::string("resting");
-  case Word::Color: return color_words(s.color);
-  case Word::BackLed: return fmt::format("back LED {}", s.back);
-  case Word::Asleep: return s.asleep ? "asleep" : "awake";
+  case Word::Moving: return s.moving ? texts::MovingAt(speed_words(s.speed)) : texts::Resting();
+  case Word::Color: return Message::as_is(color_words(s.color));
+  case Word::BackLed: return texts::BackLed(s.back);
+  case Word::Asleep: return s.asleep ? texts::Asleep() : texts::Awake();
   case Word::Print:
   case Word::Prints:
   case Word::Distance:
@@ -162,17 +169,19 @@ double off(const Expectation& one, const Meaning& meaning, const Sighting& s) {
   return sum;
 }
 
-std::string describe(const Expectation& one, const Meaning& meaning, const Sighting& s) {
-  auto text = is_state(one) ? describe_alone(one, meaning, s) : std::string();
-  for (std::size_t i = 0; i < one.joined.size(); ++i)
-    text += (text.empty() ? "" : ", ") + describe_alone(one.joined[i], meaning.joined[i], s);
-  return text;
+Message describe(const Expectation& one, const Meaning& meaning, const Sighting& s) {
+  auto all = is_state(one) ? describe_alone(one, meaning, s) : Message();
+  for (std::size_t i = 0; i < one.joined.size(); ++i) {
+    auto more = describe_alone(one.joined[i], meaning.joined[i], s);
+    all = all.empty() ? std::move(more) : texts::And(std::move(all), std::move(more));
+  }
+  return all;
 }
 
-std::string quote(std::string_view text) {
-  constexpr std::size_t longest_quoted = 80;
-  const auto shown = to_printable(text.substr(0, longest_quoted));
-  return fmt::format("\"{}{}\"", shown, text.size() <= longest_quoted ? "" : "…");
+std::string shown_line(std::string_view line) {
+  constexpr std::size_t longest_shown = 80;
+  const auto text = to_printable(line.substr(0, longest_shown));
+  return line.size() <= longest_shown ? text : text + "…";
 }
 
 } // namespace orb::testing

@@ -18,10 +18,13 @@ inline constexpr double infinite = std::numeric_limits<double>::infinity();
 double off(const Expectation& one, const Meaning& meaning, const Sighting& s);
 
 /// The sighting in the words of the same.
-std::string describe(const Expectation& one, const Meaning& meaning, const Sighting& s);
+Message describe(const Expectation& one, const Meaning& meaning, const Sighting& s);
 
-/// A printed line in quotes, cut where it is long.
-std::string quote(std::string_view text);
+/// A printed line as it can be shown, cut where it is long.
+std::string shown_line(std::string_view line);
+
+/// A number with that many decimals.
+std::string decimal(double value, int decimals);
 
 /// A number without zeros at its end.
 std::string plain(double value, int decimals);

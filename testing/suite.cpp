@@ -1,6 +1,5 @@
 #include "testing/suite.h"
 
-#include "base/catalogue.h"
 #include "base/render.h"
 #include "base/text/suggest.h"
 #include "base/text/text.h"
@@ -8,6 +7,7 @@
 #include "testing/check_room.h"
 #include "testing/lookup.h"
 #include "testing/text/rules.h"
+#include "testing/texts.h"
 
 #include <algorithm>
 #include <array>
@@ -37,9 +37,9 @@ std::string errors_of(const Source& source, const std::vector<Diagnostic>& findi
 
 /// Why an input cannot be run; empty where it can.
 std::string problem_of(const run::Input& input, const Say& say) {
-  auto text = errors_of(*input.source, input.findings, say);
-  for (const auto& file : input.included)
-    text += errors_of(*file.source, file.findings, say);
+  std::string text;
+  for (const auto& file : input.errors)
+    text += errors_of(*file.source, file.diagnostics, say);
   if (!text.empty() || !input.program || input.program->compiled)
     return text;
   // The robot finds a line that it cannot read when it gets there; a test does not wait for that.
@@ -67,8 +67,8 @@ public:
       at->second = files_.read(path);
     return at->second;
   }
-  std::string obstacle(const std::string& path) override { return files_.obstacle(path); }
-  std::string trouble(const std::string& path) override { return files_.trouble(path); }
+  Message obstacle(const std::string& path) override { return files_.obstacle(path); }
+  Message trouble(const std::string& path) override { return files_.trouble(path); }
   std::string identity(const std::string& path) override { return files_.identity(path); }
 
 private:
@@ -107,7 +107,8 @@ private:
   std::size_t program(const std::string& path, const SuiteFile& file,
                       std::vector<std::string> kept) {
     const auto& target = file.file.target;
-    std::string key = fmt::format("{}\n{}\n{}\n{}", path, static_cast<int>(target.version),
+    std::string key = fmt::format("{}\n{}\n{}\n{}\n{}", path, static_cast<int>(target.version),
+                                  static_cast<int>(target_of(file.file).version),
                                   static_cast<int>(target.area), file.source->name());
     if (file.file.with.empty())
       key.resize(key.rfind('\n'));
@@ -123,16 +124,15 @@ private:
                    const std::vector<std::string>& kept) {
     Prepared made;
     made.name = path;
-    made.target = file.file.target;
     if (const auto trouble = options_.troubles.find(path); trouble != options_.troubles.end()) {
       made.problem = trouble->second + "\n";
       made.missing = options_.missing.contains(path);
       return made;
     }
     std::vector<run::Input> rest;
-    read(path, made, made.inputs, kept);
+    read(path, file, made, made.inputs, kept);
     for (const auto& with : file.file.with)
-      read(structured::resolve_path(file.source->name(), with.text), made, rest, {});
+      read(structured::resolve_path(file.source->name(), with.text), file, made, rest, {});
     for (auto& one : rest)
       run::add_input(made.inputs, std::move(one));
     if (!made.problem.empty())
@@ -146,34 +146,32 @@ private:
     return made;
   }
 
-  void read(const std::string& path, Prepared& made, std::vector<run::Input>& inputs,
-            const std::vector<std::string>& kept) {
+  void read(const std::string& path, const SuiteFile& file, Prepared& made,
+            std::vector<run::Input>& inputs, const std::vector<std::string>& kept) {
     auto text = files_.read(path);
     if (!text) {
       made.problem += options_.say(files_.trouble(path)) + "\n";
       return;
     }
     if (text->find('\0') != std::string::npos) {
-      made.problem += with_holes_filled(
-          options_.say("{file} is not a text file; programs are plain text"), {{"file", path}});
+      made.problem += options_.say(texts::NotText(path));
       made.problem += "\n";
       return;
     }
     const auto language =
         has_ending(path, plain_ending) ? run::language_of_text(*text) : std::string_view();
     made.language += path == made.name ? language : "";
-    auto input = run::read_input(path, *std::move(text), language, made.target, run::Lint::Off,
-                                 files_, kept, options_.shape);
+    auto input = run::read_input(path, *std::move(text), language, file.file.target, files_, kept,
+                                 options_.shape);
     if (!input) {
-      made.problem +=
-          run::content_of(path, language)
-              ? input.error().message + "\n"
-              : with_holes_filled(
-                    options_.say("cannot tell what {file} is: a program's name ends in {endings}"),
-                    {{"file", path}, {"endings", fmt::format("{}", fmt::join(endings, ", "))}}) +
-                    "\n";
+      made.problem += run::content_of(path, language)
+                          ? input.error().message + "\n"
+                          : options_.say(texts::UnknownKind(
+                                path, fmt::format("{}", fmt::join(endings, ", ")))) +
+                                "\n";
       return;
     }
+    input->target = target_of(file.file);
     made.problem += problem_of(*input, options_.say);
     run::add_input(inputs, *std::move(input));
   }
@@ -198,14 +196,13 @@ std::string capitals(std::string_view ending) {
 /// For a line `WORD NAME` whose file cannot be read: one with an ending may have been meant.
 Diagnostic cannot_read(std::string_view word, const Named& given, const std::string& path,
                        std::span<const std::string_view> possible, structured::Files& files) {
-  auto d = finding(rules::File, given.span, fmt::format("cannot read {}", path),
-                   "paths are relative to the folder of the test file");
+  auto d = finding(rules::File, given.span, texts::CannotRead(path), texts::FromFolderOfTest());
   const auto ending = std::find_if(possible.begin(), possible.end(), [&](std::string_view one) {
     return files.read(fmt::format("{}{}", path, one)).has_value();
   });
   if (ending != possible.end()) {
     const auto name = fmt::format("{}{}", given.text, *ending);
-    d.help = fmt::format("write `{} {}`", word, name);
+    d.help = texts::Write(fmt::format("{} {}", word, name));
     d.fix = Fix{d.help, {{given.span, name}}, Safety::Unsafe};
   }
   return d;
@@ -229,11 +226,10 @@ std::optional<std::string> program_path(SuiteFile& file, structured::Files& file
     for (const auto& path : {beside(name, ending), beside(name, capitals(ending))})
       if (files.read(path))
         return path;
-  findings.push_back(finding(
-      rules::NoProgram, {0, 0},
-      fmt::format("there is no program to test: neither {}, {} nor {}", beside(name, endings[0]),
-                  beside(name, endings[1]), beside(name, endings[2])),
-      "name one: `program corner.bas`, or run it with `orb test --program`"));
+  findings.push_back(finding(rules::NoProgram, {0, 0},
+                             texts::NoProgram(beside(name, endings[0]), beside(name, endings[1]),
+                                              beside(name, endings[2])),
+                             texts::NameAProgram()));
   findings.back().severity = Severity::Error; // to run it; check() lowers that
   return std::nullopt;
 }
@@ -244,11 +240,9 @@ void tell_of_kept(SuiteFile& file, const Test& test, const Prepared& program) {
                                   [](const auto& one) { return one.word == Word::Variable; });
   if (first == test.expectations.end() || program.tested_bytes == program.packed_bytes)
     return;
-  file.file.diagnostics.push_back(finding(
-      rules::KeptVariable, first->name.span,
-      fmt::format(
-          "this test runs {} with its variables kept: {} bytes instead of the {} that are flashed",
-          program.name, program.tested_bytes, program.packed_bytes)));
+  file.file.diagnostics.push_back(
+      finding(rules::KeptVariable, first->name.span,
+              texts::RunsKept(program.name, program.tested_bytes, program.packed_bytes)));
 }
 
 /// Tells what is wrong with the names of a file, taken in the program that it names itself.
@@ -304,10 +298,11 @@ void read_course(SuiteFile& file, structured::Files& files) {
     return;
   }
   const auto place = drawing.position(wrong->span.begin);
-  findings.push_back(finding(rules::File, given->span,
-                             fmt::format("the course has errors: {}:{}:{}: {}", path, place.line,
-                                         place.column, wrong->message),
-                             fmt::format("`orb check {}` lists them all", path)));
+  findings.push_back(
+      finding(rules::File, given->span,
+              texts::CourseHasErrors(fmt::format("{}:{}:{}", path, place.line, place.column),
+                                     wrong->message),
+              texts::CheckListsAll(path)));
 }
 
 /// Adds the groups of one file, for the given programs or its own.
@@ -348,6 +343,12 @@ Failure no_such_test(const Suite& suite, const std::string& name) {
 }
 
 } // namespace
+
+compiler::Target target_of(const TestFile& file) {
+  auto target = file.target;
+  target.version = std::min(target.version, spec::info(file.firmware).language());
+  return target;
+}
 
 bool SuiteFile::has_errors() const {
   return any_error(file.diagnostics);
@@ -404,6 +405,10 @@ bool is_test(std::string_view file_name) {
   return has_ending(file_name, file_ending);
 }
 
+bool is_no_program(std::string_view file_name) {
+  return report::is_course(file_name) || is_test(file_name);
+}
+
 std::vector<Diagnostic> check(const Source& source, structured::Files& files) {
   auto suite = make_suite({{source.name(), std::string(source.text())}}, {}, files);
   if (!suite)
@@ -412,6 +417,17 @@ std::vector<Diagnostic> check(const Source& source, structured::Files& files) {
   for (auto& one : found)
     one.severity = one.rule->severity;
   return std::move(found);
+}
+
+void check_tests(std::span<const run::SourceFile> sources, std::vector<FileFindings>& found,
+                 structured::Files& files) {
+  for (const auto& source : sources) {
+    const auto file = std::find_if(found.begin(), found.end(), [&](const FileFindings& one) {
+      return is_test(source.path) && one.source == &source.source;
+    });
+    if (file != found.end())
+      file->diagnostics = check(source.source, files);
+  }
 }
 
 } // namespace orb::testing

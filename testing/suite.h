@@ -27,7 +27,6 @@ struct Prepared {
   std::string name;     ///< as the user wrote it, or as it was found
   std::string language; ///< of plain text, whose name does not tell it (`--lang`); else empty
   std::vector<run::Input> inputs;
-  compiler::Target target;
   std::string problem;          ///< why it cannot be run: its findings, or a sentence; else empty
   bool missing = false;         ///< it was not handed in
   std::size_t packed_bytes = 0; ///< of the image that is flashed
@@ -90,6 +89,9 @@ struct GivenFile {
   std::string text;
 };
 
+/// The robot that the tests of a file run on: its language is no newer than its firmware.
+compiler::Target target_of(const TestFile& file);
+
 /// Reads test files and what they name, through `files`. A file that does not name a program is
 /// tested with the one beside it; one that cannot be read fails its tests. Fails where no test has
 /// the name `only`.
@@ -101,7 +103,13 @@ inline constexpr std::string_view file_ending = ".test";
 /// Whether a file of that name is taken for a test file.
 bool is_test(std::string_view file_name);
 
+/// Whether a file is something else than a program or a macro: a course or tests.
+bool is_no_program(std::string_view file_name);
+
 /// Everything that is to be said about a test file.
 std::vector<Diagnostic> check(const Source& source, structured::Files& files);
+/// Adds that to what was found in files, for those of them that are tests.
+void check_tests(std::span<const run::SourceFile> sources, std::vector<FileFindings>& found,
+                 structured::Files& files);
 
 } // namespace orb::testing

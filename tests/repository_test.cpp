@@ -9,7 +9,9 @@
 #include <nlohmann/json.hpp>
 #include <regex>
 #include <set>
+#include <sstream>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace fs = std::filesystem;
@@ -318,6 +320,70 @@ TEST(Golden, EveryRuleIsShown) {
           << (*at)[1] << " of " << table << " occurs in no transcript";
     EXPECT_GT(rows, 10U) << table;
   }
+}
+
+/// The English of all rows of ORB_TEXT, by file and name.
+std::map<std::string, std::string> all_texts() {
+  std::map<std::string, std::string> texts;
+  const std::regex row(R"re(ORB_TEXT\((\w+),\s*"((?:[^"\\]|\\.)*)")re");
+  const std::regex quoted(R"re(\\(["\\]))re");
+  std::vector<fs::path> files;
+  for (const auto& room : rooms)
+    for (auto& file : files_below(root / room.name, {".def"}))
+      files.push_back(std::move(file));
+  for (const auto& file : files) {
+    const auto text = read_all(file);
+    for (std::sregex_iterator at(text.begin(), text.end(), row), end; at != end; ++at)
+      texts[file.lexically_relative(root).string() + ": " + (*at)[1].str()] =
+          std::regex_replace((*at)[2].str(), quoted, "$1");
+  }
+  return texts;
+}
+
+/// Whether a line has the pieces of a text around its holes, in their order.
+bool says(std::string_view line, std::string_view text) {
+  std::size_t from = 0;
+  while (true) {
+    const auto open = text.find('{');
+    const auto at = line.find(text.substr(0, open), from);
+    if (at == std::string_view::npos || open == std::string_view::npos)
+      return at != std::string_view::npos;
+    from = at + open;
+    text.remove_prefix(text.find('}') + 1);
+  }
+}
+
+// What is never said by a test may be wrong, or never be said at all.
+TEST(Golden, EveryTextIsShown) {
+  std::vector<std::string> lines;
+  for (const auto& file : files_below(root / "tests" / "golden", {".txt"})) {
+    std::istringstream text(read_all(file));
+    for (std::string line; std::getline(text, line);)
+      lines.push_back(std::move(line));
+  }
+  const auto texts = all_texts();
+  EXPECT_GT(texts.size(), 400U);
+  for (const auto& [name, text] : texts)
+    EXPECT_TRUE(
+        std::any_of(lines.begin(), lines.end(), [&](const auto& line) { return says(line, text); }))
+        << name << " occurs in no transcript: " << text;
+}
+
+TEST(Golden, EveryTextIsDeclaredOnce) {
+  std::map<std::string, std::string> first;
+  for (const auto& [name, text] : all_texts())
+    EXPECT_TRUE(first.emplace(text, name).second)
+        << name << " says what " << first[text] << " says";
+}
+
+TEST(Translations, EachIsOfATextThatIsSaid) {
+  std::set<std::string> known;
+  for (const auto& [name, text] : all_texts())
+    known.insert(text);
+  const auto german = nlohmann::json::parse(read_all(root / "translations" / "de.json"));
+  for (const auto* section : {"findings", "verdicts"})
+    for (const auto& [english, translation] : german.at(section).items())
+      EXPECT_TRUE(known.contains(english)) << "no row says: " << english;
 }
 
 TEST(Golden, EveryTranscriptSaysWhatItShows) {

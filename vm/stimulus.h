@@ -1,9 +1,12 @@
 #pragma once
 
 #include "base/diagnostic.h"
+#include "base/slots.h"
 #include "base/source.h"
 #include "base/time.h"
+#include "spec/ball.h"
 #include "vm/body/body.h"
+#include "vm/texts.h"
 
 #include <array>
 #include <cstdint>
@@ -67,17 +70,41 @@ struct TimedStimulus {
   Stimulus stimulus;
 };
 
+/// What a script says.
+enum class StimulusWord : std::uint8_t {
+#define ORB_STIMULUS(name, ...) name,
+#include "vm/stimulus.def"
+#undef ORB_STIMULUS
+};
+
 /// A word of a stimulus script.
 struct StimulusInfo {
   std::string_view word;
-  std::string_view operands; ///< empty where it takes none
+  Slots slots;
   std::string_view summary;
   std::string_view example; ///< a whole line
 };
 
+/// What stands behind those words.
+namespace slot {
+using namespace orb::slot;
+
+inline constexpr Slot heading = whole("HEADING", texts::Heading, 0, spec::ball::full_circle - 1);
+inline constexpr Slot on_off = choice("on|off", texts::State);
+inline constexpr Slot wall = axis("x=CM|y=CM", "=", "x=70");
+
+constexpr Slot byte(std::string_view shown, const Row<>& called) {
+  return whole(shown, called, 0, spec::ball::greatest);
+}
+/// In degrees, or degrees a second, either way.
+constexpr Slot angle(std::string_view shown, const Row<>& called, double most) {
+  return number(shown, called, -static_cast<int>(most), static_cast<int>(most));
+}
+} // namespace slot
+
 /// All words, in the order of vm/stimulus.def.
 inline constexpr auto stimulus_words = std::to_array<StimulusInfo>({
-#define ORB_STIMULUS(name, word, operands, summary, example) {word, operands, summary, example},
+#define ORB_STIMULUS(name, word, slots, summary, example) {word, slots, summary, example},
 #include "vm/stimulus.def"
 #undef ORB_STIMULUS
 });

@@ -8,6 +8,7 @@
 #include "assembler/text/parse.h"
 #include "assembler/text/rephrase.h"
 #include "assembler/text/rules.h"
+#include "assembler/text/texts.h"
 #include "assembler/timing.h"
 #include "base/silence.h"
 #include "base/text/suggest.h"
@@ -74,7 +75,7 @@ private:
                         std::make_move_iterator(more.end()));
   }
 
-  Diagnostic& report(const Rule& rule, Span span, std::string message, std::string help = {}) {
+  Diagnostic& report(const Rule& rule, Span span, Message message, Message help = {}) {
     diagnostics_.push_back(finding(rule, span, std::move(message), std::move(help)));
     return diagnostics_.back();
   }
@@ -85,8 +86,8 @@ private:
     for (const auto& command : macro.commands)
       if (const auto* lack = spec::find_lack(*options_.robot, command.info->mnemonic))
         report(rules::RobotLacks, command.span,
-               fmt::format("the {} has no `{}`: {}", spec::info(*options_.robot).title, lack->word,
-                           lack->why));
+               texts::RobotHasNo(spec::info(*options_.robot).title, lack->word,
+                                 find_text(texts::all(), lack->why)));
   }
 
   static MacroIdKind kind_of(const AssembledMacro& macro) {
@@ -102,27 +103,18 @@ private:
     case MacroIdKind::None:
     case MacroIdKind::System:
     case MacroIdKind::User:
-      report(
-          rules::TooLarge, macro.span,
-          fmt::format(
-              "the macro is {} bytes; a user macro can be at most {}, including id, flags and end",
-              size, spec::macro_max_packet),
-          "split it and chain the parts with `goto`");
+      report(rules::TooLarge, macro.span, texts::UserTooLarge(size, spec::macro_max_packet),
+             texts::SplitIt());
       return;
     case MacroIdKind::Temporary:
       if (size <= spec::macro_buffer_size)
-        report(rules::NeedsChunks, macro.span,
-               fmt::format("the macro is {} bytes and is sent in chunks", size));
+        report(rules::NeedsChunks, macro.span, texts::InChunks(size));
       else if (macro.id)
-        report(rules::TooLarge, macro.span,
-               fmt::format("the macro is {} bytes; the temporary macro can be at most {}", size,
-                           spec::macro_buffer_size),
-               fmt::format("stream it: `id={}`", spec::macro_id_stream));
+        report(rules::TooLarge, macro.span, texts::TemporaryTooLarge(size, spec::macro_buffer_size),
+               texts::StreamIt(spec::macro_id_stream));
       else
-        report(rules::NeedsStream, macro.span,
-               fmt::format("the macro is {} bytes; the ball's buffer is {}", size,
-                           spec::macro_buffer_size),
-               fmt::format("stream it: `id={}`", spec::macro_id_stream));
+        report(rules::NeedsStream, macro.span, texts::BeyondBuffer(size, spec::macro_buffer_size),
+               texts::StreamIt(spec::macro_id_stream));
     }
   }
 
@@ -130,8 +122,7 @@ private:
     if (macro.flags && spec::has_flag(*macro.flags, MacroFlag::Unkillable) &&
         kind_of(macro) != MacroIdKind::System)
       report(rules::Unkillable, macro.flags_span,
-             fmt::format("the ball ignores `{}` here", spec::info(MacroFlag::Unkillable).word),
-             "remove the flag");
+             texts::IgnoresFlag(spec::info(MacroFlag::Unkillable).word), texts::RemoveFlag());
   }
 
   void check_commands(const AssembledMacro& macro) {
@@ -144,21 +135,17 @@ private:
       const auto word = command.info->mnemonic;
       if (command.info->executive > options_.executive)
         report(rules::Executive, command.span,
-               fmt::format("`{}` needs macro executive {}; the target has {}", word,
-                           command.info->executive, options_.executive));
+               texts::NeedsExecutive(word, command.info->executive, options_.executive));
       if (command.info->place == spec::MacroPlace::OnlyInStream && !stream) {
-        auto& diagnostic =
-            report(rules::StreamOnly, command.span,
-                   fmt::format("`{}` aborts a macro that is not a stream", word),
-                   fmt::format("write `end`, or give the macro `id={}`", spec::macro_id_stream));
-        diagnostic.fix = Fix{"write `end`", {{command.span, "end"}}, Safety::Unsafe};
+        auto& diagnostic = report(rules::StreamOnly, command.span, texts::AbortsMacro(word),
+                                  texts::WriteEnd(spec::macro_id_stream));
+        diagnostic.fix = Fix{texts::Write("end"), {{command.span, "end"}}, Safety::Unsafe};
         if (!macro.id)
           diagnostic.severity = Severity::Warning; // it may be sent as a stream yet
       }
       if (command.info->place == spec::MacroPlace::NeverInStream && stream)
-        report(rules::NeverInStream, command.span,
-               fmt::format("the stream macro ignores `{}`", word),
-               kind == MacroCommand::End ? "`stream_end` ends it" : "");
+        report(rules::NeverInStream, command.span, texts::StreamIgnores(word),
+               kind == MacroCommand::End ? texts::EndsIt("stream_end") : Message());
       if (leaves != nullptr && kind != MacroCommand::End && kind != MacroCommand::Comment) {
         unreachable(macro, command, *leaves);
         leaves = nullptr;
@@ -171,16 +158,14 @@ private:
     }
     if (!macro.has_end && !stream)
       report(rules::MissingEnd, macro.commands.empty() ? macro.span : macro.commands.back().span,
-             "missing `end`", "remove `.noend`");
+             texts::Missing("end"), texts::Remove(".noend"));
   }
 
   /// `sleep` with commands below it: a wait was meant.
   void sleeps_on(const PlacedCommand& sleep) {
     auto line = std::string(source_.text(sleep.span));
     line.replace(0, sleep.info->mnemonic.size(), spec::info(MacroCommand::Delay).mnemonic);
-    auto& d = report(rules::SleepsOn, sleep.span,
-                     "`sleep` switches the ball off, so what follows never runs",
-                     fmt::format("write `{}`", line));
+    auto& d = report(rules::SleepsOn, sleep.span, texts::SwitchesOff(), texts::Write(line));
     d.fix = Fix{d.help, {{sleep.span, line}}, Safety::Unsafe};
   }
 
@@ -189,9 +174,8 @@ private:
     if (is(leaves, MacroCommand::Sleep) && leaves.origin == Origin::Written)
       return sleeps_on(leaves);
     auto& d = report(rules::Unreachable, command.span,
-                     fmt::format("`{}` is unreachable: `{}` does not return",
-                                 command.info->mnemonic, leaves.info->mnemonic));
-    d.notes.push_back({leaves.span, "control leaves the macro here"});
+                     texts::DoesNotReturn(command.info->mnemonic, leaves.info->mnemonic));
+    d.notes.push_back({leaves.span, texts::LeavesHere()});
     const bool calls =
         is(leaves, MacroCommand::Goto) && leaves.origin == Origin::Written &&
         known_[static_cast<std::uint8_t>(leaves.value[0])] &&
@@ -201,8 +185,8 @@ private:
       return;
     auto line = std::string(source_.text(leaves.span));
     line.replace(0, leaves.info->mnemonic.size(), spec::info(MacroCommand::Gosub).mnemonic);
-    d.help = fmt::format("write `{}` on line {}", line, line_of(leaves));
-    d.fix = Fix{fmt::format("write `{}`", line), {{leaves.span, line}}, Safety::Unsafe};
+    d.help = texts::WriteOnLine(line, line_of(leaves));
+    d.fix = Fix{texts::Write(line), {{leaves.span, line}}, Safety::Unsafe};
   }
 
   void check_values(const PlacedCommand& command) {
@@ -210,13 +194,12 @@ private:
     if (leads_elsewhere(kind))
       check_target(command);
     if (kind == MacroCommand::Marker && command.value[0] == spec::macro_end_marker)
-      report(rules::MarkerZero, command.operand, "marker 0 is emitted at the end of a macro",
-             fmt::format("use {} or higher", spec::macro_reserved_markers + 1));
+      report(rules::MarkerZero, command.operand, texts::EmittedAtEnd(),
+             texts::UseHigher(spec::macro_reserved_markers + 1));
     if (kind == MacroCommand::Marker && command.value[0] > 0 &&
         command.value[0] <= spec::macro_reserved_markers)
       report(rules::MarkerReserved, command.operand,
-             fmt::format("the vendor's client uses markers 1 to {} to pace streams",
-                         spec::macro_reserved_markers));
+             texts::ClientUses(spec::macro_reserved_markers));
     check_time(command);
   }
 
@@ -235,8 +218,8 @@ private:
         !is_digit(written.back()) || (operand.maximum <= UINT8_MAX && !drives && !said))
       return;
     const Span span{command.span.end - 1, command.span.end};
-    auto& d = report(rules::ShortTime, span, fmt::format("`{}` without a unit is {} ms", ms, ms),
-                     fmt::format("write `{}s`", written));
+    auto& d = report(rules::ShortTime, span, texts::WithoutUnit(ms, ms),
+                     texts::Write(fmt::format("{}s", written)));
     d.fix = Fix{d.help, {{{span.end, span.end}, "s"}}, Safety::Unsafe};
     if (operand.maximum > UINT8_MAX || drives)
       return;
@@ -244,7 +227,7 @@ private:
     const auto wait = fmt::format("delay {}s", ms);
     const auto bare = statement.substr(0, statement.find_last_not_of(" ,\t") + 1);
     const auto line = line_of(command);
-    d.help = fmt::format("write `{}`, then `{}`", bare, wait);
+    d.help = texts::WriteTwo(bare, wait);
     d.fix =
         Fix{d.help,
             {{{command.span.begin + static_cast<std::uint32_t>(bare.size()), command.span.end}, {}},
@@ -276,41 +259,42 @@ private:
                                                                  : std::string();
   }
 
+  static std::string id_of(const PlacedCommand& command) {
+    return fmt::format("id={}", command.value[0]);
+  }
+
   void offer_id(Diagnostic& d, const PlacedCommand& command, const std::string& id) const {
     if (id.empty() || parse_number<int>(source_.text(command.operand)) != command.value[0])
       return;
-    const auto line = fmt::format("write `{} {}`", command.info->mnemonic, id);
-    d.help = d.help.empty() ? line : fmt::format("{}, or {}", line, d.help);
-    d.fix = Fix{line, {{command.operand, id}}, Safety::Unsafe};
+    const auto line = fmt::format("{} {}", command.info->mnemonic, id);
+    d.help = d.help.empty() ? texts::Write(line) : texts::WriteOrCheck(line, id_of(command));
+    d.fix = Fix{texts::Write(line), {{command.operand, id}}, Safety::Unsafe};
   }
 
   void check_target(const PlacedCommand& command) {
     const auto id = static_cast<std::uint8_t>(command.value[0]);
-    const auto word = command.info->mnemonic;
     switch (spec::macro_id_kind(id)) {
     case MacroIdKind::Stream:
-      report(rules::StreamTarget, command.operand,
-             fmt::format("`{}` cannot lead to the stream macro, {}", word, id),
-             fmt::format("{} to {} are user macros, {} is the temporary one",
-                         spec::macro_id_user_first, spec::macro_id_user_last,
-                         spec::macro_id_temporary));
+      report(rules::StreamTarget, command.operand, texts::LeadsToStream(command.info->mnemonic, id),
+             texts::IdsAre(spec::macro_id_user_first, spec::macro_id_user_last,
+                           spec::macro_id_temporary));
       return;
     case MacroIdKind::None:
       if (command.info->command != MacroCommand::OnCollision)
-        report(rules::UnknownTarget, command.operand, "id 0 is not a macro");
+        report(rules::UnknownTarget, command.operand, texts::ZeroIsNone(),
+               texts::IdsAre(spec::macro_id_user_first, spec::macro_id_user_last,
+                             spec::macro_id_temporary));
       return;
     case MacroIdKind::User:
       if (!known_[id])
-        offer_id(report(rules::UnknownTarget, command.operand,
-                        fmt::format("no macro in these files has id {}", id),
-                        fmt::format("check it together with the file that defines `id={}`", id)),
+        offer_id(report(rules::UnknownTarget, command.operand, texts::NoSuchId(id),
+                        texts::CheckTogether(id_of(command))),
                  command, near_id(command));
       return;
     case MacroIdKind::System:
       if (const auto turned = turned_id(id); !known_[id] && !turned.empty())
-        offer_id(report(rules::UnknownTarget, command.operand,
-                        fmt::format("id {} is one of the ball's own macros", id)),
-                 command, turned);
+        offer_id(report(rules::UnknownTarget, command.operand, texts::IdOfSystem(id)), command,
+                 turned);
       return;
     case MacroIdKind::Temporary: return;
     }
@@ -333,12 +317,9 @@ private:
         continue;
       report(rules::HeapFull, macro.span,
              entries > spec::macro_heap_entries
-                 ? fmt::format("this is user macro number {}; the ball has room for {}", entries,
-                               spec::macro_heap_entries)
-                 : fmt::format(
-                       "with this one, the user macros total {} bytes; the ball's heap holds {}",
-                       heap, spec::macro_heap_size),
-             "run some of them as temporary macros");
+                 ? texts::TooManyMacros(entries, spec::macro_heap_entries)
+                 : texts::BeyondHeap(heap, spec::macro_heap_size),
+             texts::RunAsTemporary());
       return;
     }
   }
@@ -353,9 +334,8 @@ private:
           asks = &command;
       }
     if (asks != nullptr && !any_error(assembly_.diagnostics))
-      report(rules::CollisionsOff, asks->span, "nothing here turns on collision detection",
-             "write `configure_collision 1, 100, 50, 100, 50, 200ms` above, unless a client does "
-             "that");
+      report(rules::CollisionsOff, asks->span, texts::NothingDetects(),
+             texts::WriteAbove("configure_collision 1, 100, 50, 100, 50, 200ms"));
   }
 
   /// The only roll has speed 0, and then the ball is stopped: speed and heading are exchanged.
@@ -382,10 +362,9 @@ private:
       return;
     const auto line = fmt::format("roll {}, 0{}", roll->value[1],
                                   roll->value[2] > 0 ? fmt::format(", {}ms", roll->value[2]) : "");
-    report(rules::NeverRolls, roll->span,
-           "the ball never rolls: its speed is 0 here and never set higher",
-           fmt::format("write `{}`; the speed comes first", line))
-        .fix = Fix{fmt::format("write `{}`", line), {{roll->span, line}}, Safety::Unsafe};
+    report(rules::NeverRolls, roll->span, texts::BallNeverRolls(),
+           texts::WriteBecause(line, texts::SpeedFirst()))
+        .fix = Fix{texts::Write(line), {{roll->span, line}}, Safety::Unsafe};
   }
 
   void check_gosub_depth() {
@@ -402,10 +381,8 @@ private:
       for (const auto& outer : calls)
         if (outer.from != inner.from &&
             inner.from->id.value_or(spec::macro_id_temporary) == outer.command->value[0]) {
-          report(rules::GosubDepth, inner.command->span,
-                 "this `gosub` is ignored when the macro itself was called",
-                 "calls are one level deep; let the caller call both")
-              .notes.push_back({outer.command->span, "it is called here"});
+          report(rules::GosubDepth, inner.command->span, texts::GosubIgnored(), texts::OneLevel())
+              .notes.push_back({outer.command->span, texts::CalledHere()});
           break;
         }
   }

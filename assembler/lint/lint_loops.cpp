@@ -4,10 +4,10 @@
 #include "assembler/lint/lint_timing.h"
 #include "assembler/text/layout.h"
 #include "assembler/text/rules.h"
+#include "assembler/text/texts.h"
 #include "repair/arrange.h"
 
 #include <algorithm>
-#include <fmt/format.h>
 #include <string>
 #include <utility>
 
@@ -31,7 +31,7 @@ public:
   }
 
 private:
-  Diagnostic& report(const Rule& rule, Span span, std::string message, std::string help = {}) {
+  Diagnostic& report(const Rule& rule, Span span, Message message, Message help = {}) {
     diagnostics_.push_back(finding(rule, span, std::move(message), std::move(help)));
     return diagnostics_.back();
   }
@@ -47,9 +47,8 @@ private:
     for (const auto& command : macro.commands) {
       if (is(command, MacroCommand::LoopStart) || is(command, MacroCommand::LoopStartSystem)) {
         if (open != nullptr) {
-          report(rules::NestedLoop, command.span, "this loop replaces the previous one",
-                 "loops cannot be nested; multiply the counts, or repeat the commands")
-              .notes.push_back({open->span, "the previous one begins here"});
+          report(rules::NestedLoop, command.span, texts::ReplacesLoop(), texts::NoNesting())
+              .notes.push_back({open->span, texts::PreviousBegins()});
           ++replaced;
         }
         check_count(command);
@@ -61,10 +60,10 @@ private:
           second_end(command, before);
         open = nullptr;
       } else if (open != nullptr && is(command, MacroCommand::End) && command.span.size() > 0) {
-        auto& d = report(rules::LoopOpen, command.span, "`end` in a loop ends the whole macro",
-                         "write `loop_end`");
+        auto& d =
+            report(rules::LoopOpen, command.span, texts::EndsMacro(), texts::Write("loop_end"));
         d.fix = Fix{d.help, {{command.span, "loop_end"}}, Safety::Unsafe};
-        d.notes.push_back({open->span, "the loop"});
+        d.notes.push_back({open->span, texts::TheLoop()});
         return;
       }
       before = &command;
@@ -77,16 +76,14 @@ private:
     if (command.info == nullptr || !is(command, MacroCommand::LoopStart) || command.value[0] > 1)
       return;
     const auto said = count_said(command);
-    auto help = said > 1 ? fmt::format("write `loop_start {}`", said) : std::string();
-    if (command.value[0] == 0)
-      report(rules::LoopZero, command.operand, "a loop with a count of 0 runs once",
-             help.empty() ? "write 1, or remove it" : help);
-    else
-      report(rules::LoopOne, command.operand, "a loop with 1 iteration repeats nothing",
-             help.empty() ? "write the number of iterations, 2 to 255" : help);
-    if (said > 1)
-      diagnostics_.back().fix =
-          Fix{help, {{command.operand, std::to_string(said)}}, Safety::Unsafe};
+    auto& d = command.value[0] == 0 ? report(rules::LoopZero, command.operand,
+                                             texts::ZeroRunsOnce(), texts::WriteOneOrRemove())
+                                    : report(rules::LoopOne, command.operand,
+                                             texts::OneRepeatsNothing(), texts::WriteIterations());
+    if (said <= 1)
+      return;
+    d.help = texts::Write("loop_start " + std::to_string(said));
+    d.fix = Fix{d.help, {{command.operand, std::to_string(said)}}, Safety::Unsafe};
   }
 
   /// How often something happens by the remarks above a command, `three times`; 0 where none says.
@@ -126,22 +123,22 @@ private:
   void second_end(const PlacedCommand& command, const PlacedCommand* before) {
     if (may_begin_above(command))
       return;
-    auto& d = report(rules::LoopEnd, command.span, "`loop_end` without `loop_start`",
-                     "remove it, or add `loop_start` above");
+    auto& d = report(rules::LoopEnd, command.span, texts::Without("loop_end", "loop_start"),
+                     texts::RemoveOrAdd("loop_start"));
     if (before == nullptr || !is(*before, MacroCommand::LoopEnd) ||
         any_error(assembly_.diagnostics))
       return;
-    d.help = "remove the line";
-    d.fix = Fix{"remove the line", {without_line(source_, line_of(command))}, Safety::Unsafe};
+    d.help = texts::RemoveLine();
+    d.fix = Fix{d.help, {without_line(source_, line_of(command))}, Safety::Unsafe};
   }
 
   void left_open(const AssembledMacro& macro, const PlacedCommand& open) {
     const auto* last = last_inside(macro, open);
     const auto line = line_of(*last);
-    auto& d = report(rules::LoopOpen, open.span, "unterminated loop");
-    d.help = last == &open ? "write `loop_end` below"
-                           : fmt::format("write `loop_end` below line {}", line);
-    d.fix = Fix{"write `loop_end`",
+    auto& d = report(rules::LoopOpen, open.span, texts::OpenLoop());
+    d.help =
+        last == &open ? texts::WriteBelow("loop_end") : texts::WriteBelowLine("loop_end", line);
+    d.fix = Fix{texts::Write("loop_end"),
                 {below(source_, line, indent_of(source_, line_of(open)), "loop_end")},
                 Safety::Unsafe};
   }

@@ -3,11 +3,11 @@
 #include "assembler/lint/edits.h"
 #include "assembler/lint/lint_timing.h"
 #include "assembler/text/rules.h"
+#include "assembler/text/texts.h"
 #include "repair/tokens.h"
 
 #include <algorithm>
 #include <array>
-#include <fmt/format.h>
 #include <string>
 #include <utility>
 
@@ -20,13 +20,14 @@ using Origin = PlacedCommand::Origin;
 /// A value that the system keeps, as mnemonics name it: `set_sd1` sets it, `roll_sd1` uses it.
 struct Kept {
   std::string_view set;
-  std::string_view use; ///< part of the mnemonics that use it
-  std::string_view name;
+  std::string_view use;                       ///< part of the mnemonics that use it
+  const Row<Hole::Code, Hole::Number>* unset; ///< what is said where it is used and not set
+  int number;
 };
-constexpr auto kept = std::to_array<Kept>({{"set_sd1", "_sd1", "system delay 1"},
-                                           {"set_sd2", "_sd2", "system delay 2"},
-                                           {"set_spd1", "_spd1", "system speed 1"},
-                                           {"set_spd2", "_spd2", "system speed 2"}});
+constexpr auto kept = std::to_array<Kept>({{"set_sd1", "_sd1", &texts::TakesDelay, 1},
+                                           {"set_sd2", "_sd2", &texts::TakesDelay, 2},
+                                           {"set_spd1", "_spd1", &texts::TakesSpeed, 1},
+                                           {"set_spd2", "_spd2", &texts::TakesSpeed, 2}});
 
 class MeantLinter {
 public:
@@ -48,11 +49,11 @@ public:
   }
 
 private:
-  void offer(const Rule& rule, const PlacedCommand& command, std::string message,
-             const std::string& line, std::string_view why) {
+  void offer(const Rule& rule, const PlacedCommand& command, Message message,
+             const std::string& line, Message why = {}) {
     auto d = finding(rule, command.span, std::move(message),
-                     fmt::format("write `{}`{}{}", line, why.empty() ? "" : "; ", why));
-    d.fix = Fix{fmt::format("write `{}`", line), {{command.span, line}}, Safety::Unsafe};
+                     why.empty() ? texts::Write(line) : texts::WriteBecause(line, std::move(why)));
+    d.fix = Fix{texts::Write(line), {{command.span, line}}, Safety::Unsafe};
     diagnostics_.push_back(std::move(d));
   }
 
@@ -95,8 +96,7 @@ private:
         changed = true;
       }
     if (changed)
-      offer(rules::DimColour, command, "this is almost dark: brightness ranges from 0 to 255",
-            repair::join(tokens), "");
+      offer(rules::DimColour, command, texts::AlmostDark(), repair::join(tokens));
   }
 
   /// A heading that robots and documents do not read alike.
@@ -110,10 +110,8 @@ private:
     if (heading == tokens.end())
       return;
     heading->text = "0";
-    offer(
-        rules::HeadingOperand, command,
-        fmt::format("the current direction becomes 0 here, and {} in documents", command.value[0]),
-        repair::join(tokens), "0 means the same in both");
+    offer(rules::HeadingOperand, command, texts::BecomesZero(command.value[0]),
+          repair::join(tokens), texts::ZeroIsTheSame());
   }
 
   /// One roll has the speed of all others as its heading.
@@ -137,10 +135,8 @@ private:
       if (two.empty())
         return;
       std::swap(tokens[two[0]].text, tokens[two[1]].text);
-      offer(rules::ExchangedRoll, *one,
-            fmt::format("speed {} and heading {} seem to be swapped: all other rolls have speed {}",
-                        one->value[0], speed, speed),
-            repair::join(tokens), "the speed comes first");
+      offer(rules::ExchangedRoll, *one, texts::Swapped(one->value[0], speed, speed),
+            repair::join(tokens), texts::SpeedFirst());
       return;
     }
   }
@@ -174,9 +170,7 @@ private:
         continue;
       auto line = std::string(source_.text(sets->span));
       line.replace(0, sets->info->mnemonic.size(), one.set);
-      offer(rules::OtherSystemValue, *sets,
-            fmt::format("nothing uses this: `{}` takes {}", uses->info->mnemonic, one.name), line,
-            "");
+      offer(rules::OtherSystemValue, *sets, (*one.unset)(uses->info->mnemonic, one.number), line);
     }
   }
 

@@ -2,6 +2,7 @@
 
 #include "assembler/lint/edits.h"
 #include "assembler/text/rules.h"
+#include "assembler/text/texts.h"
 #include "assembler/timing.h"
 #include "assembler/walk.h"
 #include "base/duration.h"
@@ -9,7 +10,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <fmt/format.h>
 #include <set>
 #include <string>
 #include <string_view>
@@ -52,7 +52,7 @@ public:
   }
 
 private:
-  Diagnostic& report(const Rule& rule, Span span, std::string message, std::string help = {}) {
+  Diagnostic& report(const Rule& rule, Span span, Message message, Message help = {}) {
     diagnostics_.push_back(finding(rule, span, std::move(message), std::move(help)));
     return diagnostics_.back();
   }
@@ -70,39 +70,45 @@ private:
     int waits = 0;
   };
 
-  void cut(const Background& background, std::int64_t now_ms, Span by, std::string_view what) {
+  static std::string delay(std::int64_t ms) { return "delay " + time_text(ms); }
+
+  void cut(const Background& background, std::int64_t now_ms, Span by, Message note) {
     if (background.command == nullptr || now_ms >= background.end_ms ||
         !first_time(rules::CutShort, background.command->span))
       return;
-    auto& diagnostic = report(
-        rules::CutShort, background.command->span,
-        fmt::format("this {} needs {} but only gets {}",
-                    background.command->info->background == MacroBackground::Fade ? "fade"
-                                                                                  : "rotation",
-                    print_time(background.end_ms - background.begin_ms),
-                    print_time(now_ms - background.begin_ms)),
-        fmt::format("add `delay {}` after it", time_text(background.end_ms - now_ms)));
+    auto& diagnostic =
+        report(rules::CutShort, background.command->span,
+               texts::NeedsMore(background.command->info->background == MacroBackground::Fade
+                                    ? texts::Fade()
+                                    : texts::Rotation(),
+                                print_time(background.end_ms - background.begin_ms),
+                                print_time(now_ms - background.begin_ms)),
+               texts::AddAfter(delay(background.end_ms - now_ms)));
     lengthen(diagnostic, background, now_ms);
     if (by.size() > 0)
-      diagnostic.notes.push_back({by, fmt::format("{} here", what)});
+      diagnostic.notes.push_back({by, std::move(note)});
+  }
+
+  void write_below(Diagnostic& diagnostic, const PlacedCommand& command,
+                   const std::string& line) const {
+    const auto at = source_.position(command.span.begin).line;
+    diagnostic.help = texts::WriteBelow(line);
+    diagnostic.fix =
+        Fix{texts::Write(line), {below(source_, at, indent_of(source_, at), line)}, Safety::Unsafe};
   }
 
   /// The delay that is there becomes long enough, or there is one.
   void lengthen(Diagnostic& diagnostic, const Background& background, std::int64_t now_ms) const {
     const auto& command = *background.command;
-    const auto line = fmt::format("delay {}", time_text(background.end_ms - background.begin_ms));
-    const auto title = fmt::format("write `{}`", line);
+    const auto line = delay(background.end_ms - background.begin_ms);
     const bool ignored = background.wait != nullptr && rolls(background.wait->info->command) &&
                          command.info->background == MacroBackground::Rotate;
     if ((now_ms == background.begin_ms || ignored) && command.origin == Origin::Written) {
-      const auto at = source_.position(command.span.begin).line;
-      diagnostic.help = title + " below";
-      diagnostic.fix =
-          Fix{title, {below(source_, at, indent_of(source_, at), line)}, Safety::Unsafe};
+      write_below(diagnostic, command, line);
     } else if (background.waits == 1 && background.wait->origin == Origin::Written) {
       const auto span = background.wait->span;
-      diagnostic.help = fmt::format("{} on line {}", title, source_.position(span.begin).line);
-      diagnostic.fix = Fix{title, {{span, line}}, Safety::Unsafe};
+      diagnostic.help = texts::WriteOnLine(line, source_.position(span.begin).line);
+      diagnostic.fix = Fix{texts::Write(line), {{span, line}}, Safety::Unsafe};
     }
   }
 
@@ -142,7 +148,7 @@ private:
       return;
     cut(ongoing.fade, result.latest_ms, {}, {});
     if (stops_at_end(assembly_.macros[start]))
-      replaced(ongoing.roll, result.latest_ms, {}, "roll");
+      replaced(ongoing.roll, result.latest_ms, {}, texts::RollEnds());
     cut(ongoing.rotation, result.latest_ms, {}, {});
   }
 
@@ -152,18 +158,15 @@ private:
   }
 
   /// A roll or a colour that lasts for no time.
-  void replaced(const Background& first, std::int64_t now_ms, Span by, std::string_view what) {
+  void replaced(const Background& first, std::int64_t now_ms, Span by, Message message) {
     if (first.command == nullptr || now_ms > first.begin_ms ||
         !first_time(rules::NoTime, first.command->span))
       return;
-    auto& diagnostic = report(rules::NoTime, first.command->span,
-                              fmt::format("this {} has no effect: {}", what,
-                                          by.size() > 0 ? "the next one replaces it at once"
-                                                        : "the macro ends, and stops the motors"),
-                              "add a delay below it, such as `delay 1s`");
+    auto& diagnostic =
+        report(rules::NoTime, first.command->span, std::move(message), texts::AddDelay("delay 1s"));
     last_as_others(diagnostic, *first.command);
     if (by.size() > 0)
-      diagnostic.notes.push_back({by, "replaced here"});
+      diagnostic.notes.push_back({by, texts::ReplacedHere()});
   }
 
   static bool is_alike(const PlacedCommand& a, const PlacedCommand& b) {
@@ -189,12 +192,7 @@ private:
     if (times.size() < enough || command.origin != Origin::Written ||
         std::any_of(times.begin(), times.end(), [&](auto time) { return time != times[0]; }))
       return;
-    const auto line = fmt::format("delay {}", time_text(times[0]));
-    const auto at = source_.position(command.span.begin).line;
-    diagnostic.help = fmt::format("write `{}` below", line);
-    diagnostic.fix = Fix{fmt::format("write `{}`", line),
-                         {below(source_, at, indent_of(source_, at), line)},
-                         Safety::Unsafe};
+    write_below(diagnostic, command, delay(times[0]));
   }
 
   void check_time(const PlacedCommand& command, const Visit& visit, Ongoing& ongoing) {
@@ -202,11 +200,11 @@ private:
     const auto now = visit.latest_ms;
     const bool has_speed = kind != MacroCommand::SetSpeed && command.value[0] > 0;
     if (rolls(kind) || kind == MacroCommand::SetSpeed) {
-      replaced(ongoing.roll, now, command.span, "roll");
+      replaced(ongoing.roll, now, command.span, texts::RollReplaced());
       ongoing.roll = has_speed ? Background{&command, now, now} : Background{};
     }
     if (kind == MacroCommand::Rgb || kind == MacroCommand::RgbSd2) {
-      replaced(ongoing.colour, now, command.span, "colour");
+      replaced(ongoing.colour, now, command.span, texts::ColourReplaced());
       ongoing.colour = {&command, now, now};
     }
   }
@@ -214,9 +212,9 @@ private:
   /// A line that is missing above a command.
   Diagnostic& before_it(Diagnostic& diagnostic, const PlacedCommand& command,
                         const std::string& line) const {
-    diagnostic.help = fmt::format("add `{}` before it", line);
+    diagnostic.help = texts::AddBefore(line);
     if (command.origin == Origin::Written)
-      diagnostic.fix = Fix{fmt::format("add `{}`", line),
+      diagnostic.fix = Fix{texts::Add(line),
                            {above(source_, source_.position(command.span.begin).line, line)},
                            Safety::Unsafe};
     return diagnostic;
@@ -227,17 +225,15 @@ private:
     const auto& rotation = ongoing.rotation;
     if (rolls(kind) && rotation.command != nullptr && now < rotation.end_ms &&
         first_time(rules::RollDuringRotation, command.span))
-      before_it(report(rules::RollDuringRotation, command.span,
-                       "this roll is ignored: a rotation is still in progress"),
-                command, fmt::format("delay {}", time_text(rotation.end_ms - now)))
-          .notes.push_back({rotation.command->span, "the rotation begins here"});
+      before_it(report(rules::RollDuringRotation, command.span, texts::RollIgnored()), command,
+                delay(rotation.end_ms - now))
+          .notes.push_back({rotation.command->span, texts::RotationBegins()});
     if ((rolls(kind) || kind == MacroCommand::SetSpeed) && ongoing.unstabilized != nullptr &&
         first_time(rules::RollUnstabilized, command.span))
-      before_it(report(rules::RollUnstabilized, command.span,
-                       fmt::format("`{}` has no effect while stabilization is off",
-                                   command.info->mnemonic)),
-                command, "stabilization on")
-          .notes.push_back({ongoing.unstabilized->span, "switched off here"});
+      before_it(
+          report(rules::RollUnstabilized, command.span, texts::NoEffect(command.info->mnemonic)),
+          command, "stabilization on")
+          .notes.push_back({ongoing.unstabilized->span, texts::SwitchedOff()});
   }
 
   static void stabilize(const PlacedCommand& command, Ongoing& ongoing) {
@@ -253,15 +249,15 @@ private:
     const auto kind = command.info->command;
     const auto now = visit.latest_ms;
     if (kind == MacroCommand::Rgb || kind == MacroCommand::RgbSd2) {
-      cut(ongoing.fade, now, command.span, "another colour is set here");
+      cut(ongoing.fade, now, command.span, texts::OtherColour());
       ongoing.fade = {};
     }
     if (command.info->background == MacroBackground::Fade) {
-      cut(ongoing.fade, now, command.span, "the next one begins");
+      cut(ongoing.fade, now, command.span, texts::NextBegins());
       ongoing.fade = {&command, now, now + command.value[3]};
     }
     if (command.info->background == MacroBackground::Rotate) {
-      cut(ongoing.rotation, now, command.span, "the next one begins");
+      cut(ongoing.rotation, now, command.span, texts::NextBegins());
       const auto time = kind == MacroCommand::Rotate      ? command.value[1]
                         : kind == MacroCommand::RotateSd1 ? visit.sd1_ms
                                                           : visit.sd2_ms;

@@ -2,6 +2,8 @@
 
 #include "assembler/text/grammar.h"
 #include "assembler/text/rules.h"
+#include "assembler/text/texts.h"
+#include "base/meant.h"
 #include "base/text/suggest.h"
 #include "base/text/text.h"
 #include "base/text/utf8.h"
@@ -111,54 +113,59 @@ ORB_REASON(Stop::Expected::Operand, g::next_operand)
 
 ORB_CONTROL
 
-/// `text` as it can stand in a message.
-std::string seen(const char* at, const char* end) {
-  if (at == end)
-    return "the end of the line";
-  if (*at < ' ' || *at > '~')
-    return fmt::format("byte {:02X}h", static_cast<unsigned char>(*at));
-  return fmt::format("`{}`", *at);
+bool is_printable(char c) {
+  return c >= ' ' && c <= '~';
+}
+
+std::string hex_of(char c) {
+  return fmt::format("{:02X}h", static_cast<unsigned char>(c));
+}
+
+/// What was expected, and what stands there instead.
+Message found(Message problem, const char* at, const char* end) {
+  return at == end           ? texts::FoundEnd(std::move(problem))
+         : is_printable(*at) ? texts::Found(std::move(problem), *at)
+                             : texts::FoundByte(std::move(problem), hex_of(*at));
 }
 
 Diagnostic explain(const Builder& builder, const Stop& stop, const char* end) {
   const auto at = builder.offset(stop.at);
   const Span span{at, at + (stop.at == end ? 0U : 1U)};
-  const auto found = seen(stop.at, end);
   switch (stop.expected) {
   case Stop::Expected::Value:
-    return finding(rules::Syntax, span, fmt::format("expected a value after `=`, found {}", found),
-                   "write a number or a name");
+    return finding(rules::Syntax, span, found(texts::ExpectedValue(), stop.at, end),
+                   texts::WriteValue());
   case Stop::Expected::ClosingQuote:
     if (stop.at != end)
-      return finding(rules::Syntax, span, "invalid escape sequence",
-                     "write one of `\\\"`, `\\\\`, `\\n`, `\\r`, `\\t`, `\\0`, `\\x41`");
-    return finding(rules::Syntax, span, "unterminated string", "add `\"`");
+      return finding(rules::Syntax, span, texts::BadEscape(), texts::WriteEscape());
+    return finding(rules::Syntax, span, texts::UnterminatedString(), texts::Add('"'));
   case Stop::Expected::Operand:
-    return finding(rules::Syntax, span,
-                   fmt::format("expected an operand after the comma, found {}", found), {});
+    return finding(rules::Syntax, span, found(texts::ExpectedOperand(), stop.at, end));
   case Stop::Expected::NothingMore: break;
   }
-  std::string help;
+  Message help;
   if (*stop.at == '\'' || *stop.at == '/' || *stop.at == '*')
-    help = "remarks begin with `#`";
+    help = texts::RemarksBegin();
   else if (*stop.at == '=')
-    help = "write `name=value`";
+    help = texts::Write("name=value");
   else if (*stop.at == ':')
-    help = "macros have no labels; `.macro NAME id=40` starts one that `goto` can reach";
+    help = texts::NoLabels();
   else if (*stop.at == '\\')
-    help = "text needs quotes: `\"...\"`";
-  return finding(rules::Syntax, span, fmt::format("unexpected {}", found), help);
+    help = texts::NeedsQuotes();
+  return finding(rules::Syntax, span,
+                 is_printable(*stop.at) ? texts::Unexpected(*stop.at)
+                                        : texts::UnexpectedByte(hex_of(*stop.at)),
+                 std::move(help));
 }
 
 Diagnostic unknown_command(std::string_view word, Span span) {
   std::array<std::string_view, std::size(spec::macro_commands)> names;
   for (std::size_t i = 0; i < names.size(); ++i)
     names[i] = spec::macro_commands[i].mnemonic;
-  auto diagnostic =
-      finding(rules::UnknownCommand, span, fmt::format("`{}` is not a macro command", word),
-              did_you_mean(word, names, "`orb spec` lists the commands"));
+  auto diagnostic = finding(rules::UnknownCommand, span, texts::NotACommand(word),
+                            meant_or(word, names, texts::ListsCommands("orb spec")));
   if (const auto meant = closest(word, names))
-    diagnostic.fix = Fix{fmt::format("write `{}`", *meant), {{span, *meant}}, Safety::Unsafe};
+    diagnostic.fix = Fix{texts::Write(*meant), {{span, *meant}}, Safety::Unsafe};
   return diagnostic;
 }
 
@@ -166,9 +173,8 @@ Diagnostic unknown_directive(std::string_view word, Span span) {
   std::array<std::string_view, std::size(directives)> names;
   for (std::size_t i = 0; i < names.size(); ++i)
     names[i] = directives[i].word;
-  return finding(
-      rules::UnknownDirective, span, fmt::format("`{}` is not a directive", word),
-      did_you_mean(word, names, "the directives are `.macro`, `.const`, `.raw` and `.noend`"));
+  return finding(rules::UnknownDirective, span, texts::NotADirective(word),
+                 meant_or(word, names, texts::DirectivesAre()));
 }
 
 /// Takes the line over, or says why not.

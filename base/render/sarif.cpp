@@ -101,15 +101,15 @@ Json sarif_fix(const Source& source, const Fix& fix) {
   change["artifactLocation"] = {{"uri", uri_of(source.name())}};
   change["replacements"] = std::move(replacements);
   Json json;
-  json["description"] = {{"text", to_valid_utf8(fix.title)}};
+  json["description"] = {{"text", to_valid_utf8(in_english(fix.title))}};
   json["artifactChanges"] = Json::array({std::move(change)});
   return json;
 }
 
 Json result_json(const Source& source, const Diagnostic& diagnostic, std::size_t rule_index) {
-  auto text = to_valid_utf8(diagnostic.message);
+  auto text = to_valid_utf8(in_english(diagnostic.message));
   if (!diagnostic.help.empty())
-    text += "; " + to_valid_utf8(diagnostic.help);
+    text += "; " + to_valid_utf8(in_english(diagnostic.help));
   Json json;
   json["ruleId"] = diagnostic.rule->id;
   json["ruleIndex"] = rule_index;
@@ -118,7 +118,7 @@ Json result_json(const Source& source, const Diagnostic& diagnostic, std::size_t
   json["locations"] = Json::array({location_of(source, diagnostic.span)});
   for (const auto& note : diagnostic.notes) {
     auto related = location_of(source, note.span);
-    related["message"] = {{"text", to_valid_utf8(note.message)}};
+    related["message"] = {{"text", to_valid_utf8(in_english(note.message))}};
     json["relatedLocations"].push_back(std::move(related));
   }
   if (diagnostic.fix && !diagnostic.fix->edits.empty())

@@ -1,6 +1,7 @@
 #include "base/text/text.h"
 #include "base/render.h"
 #include "base/text/utf8.h"
+#include "base/texts.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -13,6 +14,15 @@ constexpr std::size_t excerpt_width = 100;
 
 std::string_view gcc_word(Severity severity) {
   return severity == Severity::Info ? "note" : to_string(severity);
+}
+
+Message severity_word(Severity severity) {
+  switch (severity) {
+  case Severity::Info: return texts::Info();
+  case Severity::Warning: return texts::Warning();
+  case Severity::Error: return texts::Error();
+  }
+  return texts::Error();
 }
 
 Role role_of(Severity severity) {
@@ -54,25 +64,28 @@ std::string excerpt(const Source& source, Span span, Role role, Style style) {
 
 } // namespace
 
-std::string in_english(std::string_view text) {
-  return std::string(text);
+std::string in_one_line(const Diagnostic& diagnostic) {
+  auto line = in_english(diagnostic.message);
+  return diagnostic.help.empty() ? line : line + "; " + in_english(diagnostic.help);
 }
 
 std::string render_text(const Source& source, const Diagnostic& diagnostic, Style style,
                         const Say& say) {
   const auto place = source.position(diagnostic.span.begin);
   const auto role = role_of(diagnostic.severity);
-  const auto kind = fmt::format("{}[{}]", say(to_string(diagnostic.severity)), diagnostic.rule->id);
+  const auto kind =
+      fmt::format("{}[{}]", say(severity_word(diagnostic.severity)), diagnostic.rule->id);
   auto out = fmt::format("{}:{}:{}: {}: {}\n", shown_name(source.name()), place.line, place.column,
                          style.paint(role, kind), to_printable(say(diagnostic.message)));
   out += excerpt(source, diagnostic.span, role, style);
   if (!diagnostic.help.empty())
-    out += fmt::format("  {}: {}\n", style.paint(Role::Good, say("help")),
+    out += fmt::format("  {}: {}\n", style.paint(Role::Good, say(texts::Help())),
                        to_printable(say(diagnostic.help)));
   for (const auto& note : diagnostic.notes) {
     const auto at = source.position(note.span.begin);
-    out += fmt::format("{}:{}:{}: {}: {}\n", shown_name(source.name()), at.line, at.column,
-                       style.paint(Role::Note, say("note")), to_printable(say(note.message)));
+    out +=
+        fmt::format("{}:{}:{}: {}: {}\n", shown_name(source.name()), at.line, at.column,
+                    style.paint(Role::Note, say(texts::Note())), to_printable(say(note.message)));
     out += excerpt(source, note.span, Role::Note, style);
   }
   return out;
@@ -82,11 +95,11 @@ std::string render_gcc(const Source& source, const Diagnostic& diagnostic) {
   const auto place = source.position(diagnostic.span.begin);
   auto out = fmt::format("{}:{}:{}: {}: {} [{}]\n", shown_name(source.name()), place.line,
                          place.column, gcc_word(diagnostic.severity),
-                         to_printable(diagnostic.message), diagnostic.rule->id);
+                         to_printable(in_english(diagnostic.message)), diagnostic.rule->id);
   for (const auto& note : diagnostic.notes) {
     const auto at = source.position(note.span.begin);
     out += fmt::format("{}:{}:{}: note: {}\n", shown_name(source.name()), at.line, at.column,
-                       to_printable(note.message));
+                       to_printable(in_english(note.message)));
   }
   return out;
 }
@@ -94,16 +107,16 @@ std::string render_gcc(const Source& source, const Diagnostic& diagnostic) {
 std::string render_summary(const std::vector<FileFindings>& files, const Say& say) {
   const auto counts = count(files);
   std::string out;
-  const auto add = [&](std::size_t n, std::string_view what) {
+  const auto add = [&](std::size_t n, const Row<>& one, const Row<Hole::Number>& several) {
     if (n > 0)
-      out += fmt::format("{}{}", out.empty() ? "" : ", ", say(plural(n, what)));
+      out += fmt::format("{}{}", out.empty() ? "" : ", ", say(counted(n, one, several)));
   };
-  add(counts.errors, "error");
-  add(counts.warnings, "warning");
-  add(counts.infos, "note");
+  add(counts.errors, texts::OneError, texts::Errors);
+  add(counts.warnings, texts::OneWarning, texts::Warnings);
+  add(counts.infos, texts::OneNote, texts::Notes);
   if (out.empty())
-    out = say("no findings");
-  return fmt::format("{} {}\n", out, say(fmt::format("in {}", plural(files.size(), "file"))));
+    out = say(texts::NoFindings());
+  return fmt::format("{} {}\n", out, say(counted(files.size(), texts::InOneFile, texts::InFiles)));
 }
 
 } // namespace orb

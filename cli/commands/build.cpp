@@ -84,11 +84,11 @@ void build_basic(Context& context, const BuildOptions& options, const Source& so
 void build_structured(Context& context, const BuildOptions& options, const Source& source) {
   const auto target = options.target.target();
   DiskFiles files;
-  const auto input = run::read_input(source.name(), std::string(source.text()), "structured",
-                                     target, run::Lint::Off, files);
+  const auto input =
+      run::read_input(source.name(), std::string(source.text()), "structured", target, files);
   if (!input)
     return fail(context, input.error());
-  if (print_findings(context, *input)) {
+  if (print_findings(context, input->errors)) {
     context.exit = ExitCode::BadInput;
     return;
   }

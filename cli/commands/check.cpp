@@ -12,7 +12,8 @@
 #include "cli/terminal/watch.h"
 #include "disk/disk.h"
 #include "reference/knowledge.h"
-#include "testing/check_files.h"
+#include "run/check_files.h"
+#include "testing/suite.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -45,8 +46,7 @@ tl::expected<Sources, Failure> read_sources(const CheckOptions& options) {
       auto text = read_text(path);
       if (!text)
         return tl::unexpected(text.error());
-      sources.push_back({path, run::Language::Basic, // of no language; is_no_program() comes first
-                         Source(disk::display_name(path), *std::move(text))});
+      sources.push_back({path, {}, Source(disk::display_name(path), *std::move(text))});
       continue;
     }
     auto source = read_source(path, options.lang);
@@ -57,13 +57,14 @@ tl::expected<Sources, Failure> read_sources(const CheckOptions& options) {
   return sources;
 }
 
-testing::Findings check_all(const CheckOptions& options, std::span<const SourceFile> sources) {
+run::Findings check_all(const CheckOptions& options, std::span<const SourceFile> sources) {
   DiskFiles disk;
   auto target = options.target.target();
   auto macro = options.macro;
   if (!options.robot.empty())
     target.robot = macro.robot = spec::find_robot(options.robot)->robot; // the options are checked
-  auto found = testing::check_files(sources, target, macro, disk);
+  auto found = run::check_files(sources, target, macro, disk);
+  testing::check_tests(sources, found.files, disk);
   for (auto& file : found.files)
     weigh(options.policy, file.diagnostics);
   return found;
@@ -71,7 +72,7 @@ testing::Findings check_all(const CheckOptions& options, std::span<const SourceF
 
 /// Makes the safe fixes of a file until none is left, and writes it back where one was made.
 bool fix_one(Context& context, const CheckOptions& options, SourceFile& input) {
-  const auto made = testing::fix(input, [&](const SourceFile& file) {
+  const auto made = run::fix(input, [&](const SourceFile& file) {
     return check_all(options, {&file, 1}).files.front().diagnostics;
   });
   if (made == 0)

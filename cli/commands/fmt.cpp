@@ -108,7 +108,7 @@ void run_one(Context& context, const FmtOptions& options, const std::string& pat
                                                            ? "macros"
                                                            : "structured programs")});
   const auto formatted = [&] {
-    switch (file->language) {
+    switch (*file->language) {
     case run::Language::Basic: return format_text(context, source, numbering);
     case run::Language::Structured: return format_structured(context, source);
     case run::Language::Macro: break;

@@ -217,7 +217,7 @@ tl::expected<void, Failure> run_files(Context& context, RunOptions given) {
   if (!given.port.port.empty() || !given.replay.empty())
     if (auto fits = check_for_robot(context, given, *options); !fits)
       return fits;
-  const auto inputs = read_inputs(given.files, given.language, options->target, run::Lint::Off);
+  const auto inputs = read_inputs(given.files, given.language, options->target);
   if (!inputs)
     return tl::unexpected(inputs.error());
   if (auto good = check_inputs(context, *inputs); !good)
@@ -267,7 +267,7 @@ tl::expected<void, Failure> run_files(Context& context, RunOptions given) {
     written = write_pictures(given, *journey, planned ? &*planned : nullptr, *before);
   if (!written) // how the run ended is told all the same
     print_error(context, written.error().message);
-  tell_end(context, given, *ending, run::why(*inputs, *options, *ending));
+  tell_end(context, given, *ending, run::why(*inputs, *ending));
   if (want.empty() && ending->reason == run::Reason::Input && options->asks == run::Asks::No)
     print_note(context, fmt::format("hint: answer it with `--input {}`", one_more(*options)));
   if (*profile)
@@ -343,7 +343,8 @@ void run_with_report(Context& context, RunOptions& options) {
   if (options.open && options.report == "-")
     return fail(context, {ExitCode::Usage, "`--open` needs a report in a file; omit `--report -`"});
   if (!options.record.empty() && options.port.port.empty())
-    return fail(context, {ExitCode::Usage, "`--record` records a run on a robot; add `--port URL`"});
+    return fail(context,
+                {ExitCode::Usage, "`--record` records a run on a robot; add `--port URL`"});
   if (!options.replay.empty() && !options.port.port.empty())
     return fail(context, {ExitCode::Usage, "`--replay` needs no robot; omit `--port`"});
   if (options.sleeps && options.port.port.empty())

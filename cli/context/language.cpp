@@ -59,8 +59,8 @@ Say say_in(std::string_view language) {
   if (known == read.end())
     known = read.emplace(code, catalogue_of(code)).first;
   if (!known->second)
-    return in_english;
-  return [&catalogue = *known->second](std::string_view text) { return catalogue.say(text); };
+    return &in_english;
+  return [&catalogue = *known->second](const Message& message) { return catalogue.say(message); };
 }
 
 } // namespace orb::cli

@@ -4,6 +4,7 @@
 #include "cli/context/language.h"
 #include "cli/model/command.h"
 #include "disk/disk.h"
+#include "testing/texts.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -37,19 +38,19 @@ std::optional<std::string> DiskFiles::read(const std::string& path) {
   return text ? std::optional(*std::move(text)) : std::nullopt;
 }
 
-std::string DiskFiles::obstacle(const std::string& path) {
-  return std::string(disk::what_else(path));
+Message DiskFiles::obstacle(const std::string& path) {
+  return disk::what_else(path);
 }
 
-std::string DiskFiles::trouble(const std::string& path) {
+Message DiskFiles::trouble(const std::string& path) {
   if (leads_through_link(path)) {
     const auto text = links_.read(path);
-    return text ? std::string() : text.error().message;
+    return text ? Message() : Message::as_is(text.error().message);
   }
   if (const auto other = disk::what_else(path); !other.empty())
-    return fmt::format("cannot read {}: it is {}", path, other);
+    return testing::texts::CannotReadBecause(path, texts::ItIs(other));
   const auto text = disk::read(path == "-" ? "./-" : path);
-  return text ? std::string() : text.error().message;
+  return text ? Message() : Message::as_is(text.error().message);
 }
 
 std::string DiskFiles::identity(const std::string& path) {
@@ -78,16 +79,14 @@ tl::expected<run::SourceFile, Failure> read_source(const std::string& path, std:
 
 tl::expected<std::vector<run::Input>, Failure> read_inputs(const std::vector<std::string>& paths,
                                                            std::string_view lang,
-                                                           const compiler::Target& target,
-                                                           run::Lint lint) {
+                                                           const compiler::Target& target) {
   std::vector<run::Input> inputs;
   DiskFiles files;
   for (const auto& path : paths) {
     auto text = read_text(path);
     if (!text)
       return tl::unexpected(text.error());
-    auto input =
-        run::read_input(disk::display_name(path), *std::move(text), lang, target, lint, files);
+    auto input = run::read_input(disk::display_name(path), *std::move(text), lang, target, files);
     if (!input)
       return tl::unexpected(input.error());
     run::add_input(inputs, *std::move(input));
@@ -163,10 +162,10 @@ bool print_findings(const Context& context, const Source& source,
   return errors;
 }
 
-bool print_findings(const Context& context, const run::Input& input) {
-  bool errors = print_findings(context, *input.source, input.findings);
-  for (const auto& file : input.included)
-    errors = print_findings(context, *file.source, file.findings) || errors;
+bool print_findings(const Context& context, const std::vector<FileFindings>& files) {
+  bool errors = false;
+  for (const auto& file : files)
+    errors = print_findings(context, *file.source, file.diagnostics) || errors;
   return errors;
 }
 
@@ -174,7 +173,7 @@ tl::expected<void, Failure> check_inputs(const Context& context,
                                          const std::vector<run::Input>& inputs) {
   for (const auto& input : inputs)
     if (input.has_errors()) {
-      print_findings(context, input);
+      print_findings(context, input.errors);
       return tl::unexpected(
           Failure{ExitCode::BadInput, fmt::format("{} has errors", input.source->name())});
     }

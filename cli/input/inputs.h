@@ -29,8 +29,8 @@ tl::expected<std::string, Failure> read_text(const std::string& path);
 class DiskFiles final : public structured::Files {
 public:
   std::optional<std::string> read(const std::string& path) override;
-  std::string obstacle(const std::string& path) override;
-  std::string trouble(const std::string& path) override;
+  Message obstacle(const std::string& path) override;
+  Message trouble(const std::string& path) override;
   std::string identity(const std::string& path) override;
 
 private:
@@ -44,8 +44,7 @@ tl::expected<run::SourceFile, Failure> read_source(const std::string& path, std:
 /// not printed yet.
 tl::expected<std::vector<run::Input>, Failure> read_inputs(const std::vector<std::string>& paths,
                                                            std::string_view lang,
-                                                           const compiler::Target& target,
-                                                           run::Lint lint);
+                                                           const compiler::Target& target);
 
 /// Adds `--stimulus`, a script or a line of one, which may be given several times.
 void add_stimulus_option(const Command& command, std::vector<std::string>& stimuli);
@@ -66,16 +65,13 @@ tl::expected<report::Course, Failure> read_course(const Context& context, const 
 /// Prints a finding to stderr.
 void print_finding(const Context& context, const Source& source, const Diagnostic& diagnostic);
 
-/// Prints a finding to stderr.
-void print_finding(const Context& context, const Source& source, const Diagnostic& diagnostic);
-
 /// Prints findings to stderr: errors always, warnings unless -q, the rest with -v. True when there
 /// is an error among them.
 bool print_findings(const Context& context, const Source& source,
                     const std::vector<Diagnostic>& findings);
 
-/// The same for an input with all that it includes.
-bool print_findings(const Context& context, const run::Input& input);
+/// The same for all files of an input.
+bool print_findings(const Context& context, const std::vector<FileFindings>& files);
 
 /// Prints the findings of the first input that has errors; fine where none has.
 tl::expected<void, Failure> check_inputs(const Context& context,

@@ -124,7 +124,7 @@ std::string_view words_before(std::string_view line) {
 tl::expected<std::string, Failure> read(const std::string& path) {
   if (const auto other = disk::what_else(path); !other.empty())
     return tl::unexpected(
-        Failure{ExitCode::File, fmt::format("cannot read {}: it is {}", path, other)});
+        Failure{ExitCode::File, fmt::format("cannot read {}: it is {}", path, in_english(other))});
   auto text = disk::read(path);
   if (!text)
     return tl::unexpected(Failure{ExitCode::File, text.error().message});

@@ -1,11 +1,11 @@
 #include "cli/input/programs.h"
 
-#include "base/catalogue.h"
 #include "base/text/text.h"
 #include "cli/input/inputs.h"
 #include "cli/input/links.h"
 #include "disk/disk.h"
 #include "run/input.h"
+#include "testing/texts.h"
 
 #include <algorithm>
 #include <array>
@@ -136,13 +136,8 @@ public:
   HandedIn take() { return std::move(found_); }
 
 private:
-  std::string told(std::string_view sentence,
-                   const std::unordered_map<std::string, std::string>& names) const {
-    return with_holes_filled(say_(sentence), names);
-  }
-
   std::string cannot_read(const std::string& path, const std::error_code& error) const {
-    return told("cannot read {file}: {why}", {{"file", path}, {"why", error.message()}});
+    return say_(testing::texts::CannotReadBecause(path, Message::as_is(error.message())));
   }
 
   /// The names of programs that tests ask for.
@@ -187,10 +182,9 @@ private:
     for (const auto& file : listing.addresses)
       add_addresses(file, {});
     for (const auto& loop : listing.loops)
-      add_trouble(loop, name_of(loop),
-                  told("cannot read {file}: broken symbolic link", {{"file", loop}}));
+      add_trouble(loop, name_of(loop), say_(testing::texts::BrokenLink(loop)));
     for (const auto& file : listing.packed)
-      add_trouble(file, std::string(stem(file)), told(is_packed, {{"file", file}}));
+      add_trouble(file, std::string(stem(file)), say_(testing::texts::Packed(file)));
     for (const auto& folder : listing.folders)
       add_pupil(folder);
   }
@@ -202,12 +196,12 @@ private:
       return;
     const auto pupil = std::string(stem(path));
     if (const auto links = read_links(*text); links)
-      return add_trouble(path, pupil,
-                         told("{file} holds addresses of the playground; rename it to {name}",
-                              {{"file", path}, {"name", pupil + std::string(link_ending)}}));
+      return add_trouble(
+          path, pupil,
+          say_(testing::texts::HoldsAddresses(path, pupil + std::string(link_ending))));
     DiskFiles files;
     const auto language = run::language_of_text(*text);
-    const auto input = run::read_input(path, *std::move(text), language, {}, run::Lint::Off, files);
+    const auto input = run::read_input(path, *std::move(text), language, {}, files);
     if (language != "structured" || (input && !input->has_errors()))
       add_program(path, pupil);
   }
@@ -236,10 +230,8 @@ private:
       for (const auto& program : own.empty() ? programs : own)
         add_program(program, pupil);
     } else if (!listing.programs.empty()) {
-      add_trouble(
-          folder, pupil,
-          told("{folder} holds {n} programs; call the one to test {name}",
-               {{"folder", folder}, {"n", std::to_string(programs.size())}, {"name", wanted()}}));
+      add_trouble(folder, pupil,
+                  say_(testing::texts::HoldsPrograms(folder, programs.size(), wanted())));
     } else {
       found_.missing.insert(folder);
       add_trouble(folder, pupil, why_none(folder, listing));
@@ -249,7 +241,7 @@ private:
   /// What lies there in place of a program.
   std::string why_none(const std::string& folder, const Listing& listing) const {
     if (!listing.packed.empty())
-      return told(is_packed, {{"file", listing.packed.front()}});
+      return say_(testing::texts::Packed(listing.packed.front()));
     std::vector<std::string> there;
     for (const auto& deeper : listing.folders)
       there.push_back(name_of(deeper) + "/");
@@ -257,16 +249,13 @@ private:
       for (const auto& path : *names)
         there.push_back(name_of(path));
     if (there.empty())
-      return told("{folder} holds no program; expected {name}",
-                  {{"folder", folder}, {"name", wanted()}});
+      return say_(testing::texts::HoldsNone(folder, wanted()));
     if (there.size() > most_named) {
       there.resize(most_named);
       there.emplace_back("…");
     }
-    return told("{folder} holds no program, but {there}; expected {name}",
-                {{"folder", folder},
-                 {"there", fmt::format("{}", fmt::join(there, ", "))},
-                 {"name", wanted()}});
+    return say_(
+        testing::texts::HoldsOther(folder, fmt::format("{}", fmt::join(there, ", ")), wanted()));
   }
 
   /// What the playground shares: each address is one pupil's, that of `pupil` if named.
@@ -292,8 +281,6 @@ private:
       add_handed_in(folder, whose(folder), listing);
     }
   }
-
-  static constexpr std::string_view is_packed = "{file} is packed; unpack it, and test again";
 
   const std::set<std::string>& stems_;
   const Say& say_;

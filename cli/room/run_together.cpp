@@ -90,14 +90,14 @@ tl::expected<run::Options, Failure> options_of(const Context& context, const run
 tl::expected<void, Failure> furnish(const Context& context, const RunOptions& given,
                                     const run::Options& all, Furnished& room) {
   for (const auto& ball : room.plan.balls) {
-    auto inputs = read_inputs(ball.files, given.language, all.target, run::Lint::Off);
+    auto inputs = read_inputs(ball.files, given.language, all.target);
     if (!inputs)
       return refuse(inputs.error().code,
                     ball.place.empty() ? inputs.error().message
                                        : fmt::format("{}: {}", ball.place, inputs.error().message));
     for (const auto& input : *inputs)
       if (input.has_errors()) {
-        print_findings(context, input);
+        print_findings(context, input.errors);
         return refuse(ExitCode::BadInput, fmt::format("{} has errors", input.source->name()));
       }
     auto options = options_of(context, all, ball);

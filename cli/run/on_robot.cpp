@@ -23,8 +23,8 @@ void hint_at_lacks(const Context& context, const std::vector<run::Input>& inputs
   for (const auto& input : inputs)
     if (input.program)
       for (const auto& found : compiler::robot_findings(input.program->parsed, robot))
-        if (said.insert(found.message).second)
-          print_note(context, "hint: " + found.message);
+        if (said.insert(in_english(found.message)).second)
+          print_note(context, "hint: " + in_english(found.message));
 }
 
 bool is_number(const vm::TimedStimulus& event) {

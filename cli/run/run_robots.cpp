@@ -31,7 +31,7 @@ tl::expected<void, Failure> check_for_several(const Context& context, const RunO
   const auto read = read_options(context, options);
   if (!read)
     return tl::unexpected(read.error());
-  const auto inputs = read_inputs(options.files, options.language, read->target, run::Lint::Off);
+  const auto inputs = read_inputs(options.files, options.language, read->target);
   if (!inputs)
     return tl::unexpected(inputs.error());
   return check_inputs(context, *inputs);

@@ -12,7 +12,7 @@ public:
     asked.push_back(path);
     return disk_.read(path);
   }
-  std::string obstacle(const std::string& path) override { return disk_.obstacle(path); }
+  Message obstacle(const std::string& path) override { return disk_.obstacle(path); }
   std::string identity(const std::string& path) override { return disk_.identity(path); }
   std::vector<std::string> asked;
 

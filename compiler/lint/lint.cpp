@@ -8,7 +8,6 @@
 #include "spec/limits.h"
 
 #include <algorithm>
-#include <fmt/format.h>
 #include <iterator>
 #include <map>
 
@@ -42,15 +41,13 @@ void check_size(const Program& program, const Flow& flow, const Target& target,
   if (size > room) {
     const auto line = line_at_byte(program, flow, room);
     findings.add(rules::ProgramTooLarge, program.lines[line].span,
-                 fmt::format("the program is {} bytes, {} more than the {} that the {} area holds",
-                             size, size - room, room, in_ram ? "RAM" : "flash"),
-                 "`orb build --pack` makes it smaller");
+                 texts::MoreThanAreaHolds(size, size - room, room, in_ram ? "RAM" : "flash"),
+                 texts::PackMakesSmaller());
   } else if (may_be_old && size > oldest) {
     const auto line = line_at_byte(program, flow, oldest);
-    findings.add(
-        rules::LargerThanOldRam, program.lines[line].span,
-        fmt::format("the program is {} bytes; older robots have room for {}", size, oldest),
-        fmt::format("give `--ram {}` if yours has more", spec::value_of(spec::Limit::RamBytes)));
+    findings.add(rules::LargerThanOldRam, program.lines[line].span,
+                 texts::MoreThanOldRobotsHold(size, oldest),
+                 texts::GiveRam(spec::value_of(spec::Limit::RamBytes)));
   }
 }
 
@@ -109,8 +106,8 @@ void place(const Program& program, std::vector<Diagnostic>& findings) {
 
 } // namespace
 
-void add_note(Diagnostic& diagnostic, Span where, std::string_view what) {
-  diagnostic.notes.push_back({where, std::string(what)});
+void add_note(Diagnostic& diagnostic, Span where, Message what) {
+  diagnostic.notes.push_back({where, std::move(what)});
 }
 
 std::int32_t area_bytes(const Target& target) {

@@ -1,4 +1,3 @@
-#include "base/text/text.h"
 #include "compiler/lint/letters.h"
 #include "compiler/lint/lint_passes.h"
 #include "compiler/lint/range.h"
@@ -6,9 +5,7 @@
 #include "compiler/text/rules.h"
 
 #include <algorithm>
-#include <fmt/format.h>
 #include <optional>
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -18,7 +15,7 @@ namespace {
 /// A value that stops the program, whatever its sensors say.
 struct CertainFault {
   Span span;
-  std::string message;
+  Message message;
 };
 
 /// Runs a program from its first line for as long as nothing unknown decides where it goes.
@@ -58,13 +55,13 @@ private:
     return !same;
   }
 
-  void stop(Span span, std::string message) {
+  void stop(Span span, Message message) {
     if (certain_ && !fault_)
       fault_ = CertainFault{span, std::move(message)};
   }
 
-  std::string becomes(Span span, Range range) const {
-    return fmt::format("but `{}` becomes {} here", program_.text_of(span), shown(range));
+  Message becomes(Message allowed, Span span, Range range) const {
+    return texts::ButBecomes(std::move(allowed), program_.text_of(span), shown(range));
   }
 
   // ---- values
@@ -88,9 +85,8 @@ private:
       const auto& row = spec::functions[node.what];
       const auto& operand = known_[index - 1];
       if (operand.misses(row.least, row.greatest))
-        stop(program_.nodes[index - 1].span,
-             fmt::format("`{}` takes {} or more, {}", row.word, row.least,
-                         becomes(program_.nodes[index - 1].span, operand)));
+        stop(program_.nodes[index - 1].span, becomes(texts::TakesOrMore(row.word, row.least),
+                                                     program_.nodes[index - 1].span, operand));
       return apply(row.function, operand);
     }
     case NodeKind::Binary: {
@@ -108,24 +104,22 @@ private:
     const bool divides = op == spec::Operator::Divide || op == spec::Operator::Remainder;
     const bool shifts = op == spec::Operator::ShiftLeft || op == spec::Operator::ShiftRight;
     if (divides && right == Range::only(0))
-      stop(span, fmt::format("division by zero: `{}` becomes 0 here", program_.text_of(span)));
+      stop(span, texts::DividesByZeroHere(program_.text_of(span)));
     else if (shifts && right.misses(0, most))
-      stop(span, fmt::format("a shift must be 0 to {} bits, {}", most, becomes(span, right)));
+      stop(span, becomes(texts::ShiftMustBe(most), span, right));
   }
 
   void check_index(Span span) {
     const auto& index = now_.ranges[spec::letter_count - 1];
     const auto most = spec::value_of(spec::Limit::IndexedVariables);
     if (index.misses(1, most))
-      stop(span,
-           fmt::format("`Z` is used while `Y` becomes {}; it must be 1 to {}", shown(index), most));
+      stop(span, texts::UsedWhileIndexBecomes('Z', 'Y', shown(index), 1, most));
   }
 
   void check_value(const Item& item, std::string_view word, const spec::Parameter& parameter) {
     const auto& range = value(item);
     if (range.misses(parameter.least, parameter.greatest))
-      stop(item.span,
-           fmt::format("{}, {}", allowed_values(word, parameter), becomes(item.span, range)));
+      stop(item.span, becomes(allowed_values(word, parameter), item.span, range));
   }
 
   void set(const Item& variable, const Range& range) {
@@ -249,9 +243,8 @@ private:
     const auto range = value(on.selector);
     const auto count = static_cast<std::int32_t>(on.targets.size());
     if (range.misses(1, count))
-      stop(on.selector.span,
-           fmt::format("the list has {}, {}", plural(on.targets.size(), "line number"),
-                       becomes(on.selector.span, range)));
+      stop(on.selector.span, becomes(counted(on.targets.size(), texts::ListHasOne, texts::ListHas),
+                                     on.selector.span, range));
     if (!range.constant() || range.misses(1, count))
       return none;
     return jump(statement, static_cast<std::uint32_t>(range.lo), at);

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <fmt/format.h>
-#include <string>
 
 namespace orb::compiler {
 namespace {
@@ -105,9 +104,8 @@ private:
       if (!line.has_number() || flow_.is_taken(line.number, line_of(first)))
         continue;
       findings_.add(rules::UnreachableLine, line.number_span,
-                    i == first
-                        ? fmt::format("line {} is unreachable", line.number)
-                        : fmt::format("lines {} to {} are unreachable", line.number, number_of(i)));
+                    i == first ? texts::LineUnreachable(line.number)
+                               : texts::LinesUnreachable(line.number, number_of(i)));
     }
   }
 
@@ -141,9 +139,9 @@ private:
         falls_into = true;
       else if (is(main, place.code))
         findings_
-            .add(rules::ReturnWithoutGosub, span, "no `gosub` leads to this `return`",
-                 "end the program with `end`")
-            .fix = single_fix("write `end`", span, "end", Safety::Unsafe);
+            .add(rules::ReturnWithoutGosub, span, texts::NoGosubLeadsHere(),
+                 texts::EndProgramWith("end"))
+            .fix = single_fix(texts::Write("end"), span, "end", Safety::Unsafe);
     }
     if (!falls_into)
       return;
@@ -154,12 +152,10 @@ private:
       if (!runs_in || !returns_from(i))
         continue;
       reported = true;
-      auto& d = findings_.add(
-          rules::FallIntoSubroutine, statement(i - 1).span,
-          fmt::format("execution falls through into the subroutine at line {}", number_of(i)),
-          "add `end` after this line");
+      auto& d = findings_.add(rules::FallIntoSubroutine, statement(i - 1).span,
+                              texts::FallsIntoSubroutine(number_of(i)), texts::AddEndAfterThis());
       add_end(d, i);
-      add_note(d, statement(i).span, "the subroutine begins here");
+      add_note(d, statement(i).span, texts::SubroutineBeginsHere());
     }
     if (reported)
       return;
@@ -167,9 +163,7 @@ private:
       if (is(main, jump.from) && !is(inside, jump.from) && !jump.call && jump.to != none &&
           is(inside, jump.to) && returns_from(jump.to))
         findings_.add(rules::FallIntoSubroutine, program_.items[jump.item].span,
-                      fmt::format("line {} is part of a subroutine and leads to its `return`",
-                                  number_of(jump.to)),
-                      "call it with `gosub`");
+                      texts::PartOfSubroutine(number_of(jump.to)), texts::CallWithGosub());
   }
 
   /// Offers an `end` in front of a line of code, where there is a number for it.
@@ -180,8 +174,9 @@ private:
       return;
     const auto number = below > above + 5 ? above + 5 : above + 1;
     const auto at = program_.lines[line_of(code)].span.begin;
-    d.help = fmt::format("write `{} end` after this line", number);
-    d.fix = single_fix("end here", {at, at}, fmt::format("{} end\n", number), Safety::Unsafe);
+    const auto line = fmt::format("{} end", number);
+    d.help = texts::WriteAfterThis(line);
+    d.fix = single_fix(texts::EndHere(), {at, at}, line + "\n", Safety::Unsafe);
   }
 
   /// Calls of lines from which no way leads to a `return`.
@@ -249,12 +244,10 @@ private:
       return; // ends the program on purpose, where something has gone wrong
     const auto number = number_of(last);
     findings_.add(rules::NeverReturns, program_.items[jump.item].span,
-                  fmt::format("line {} never returns: no path from it reaches a `return`",
-                              number_of(jump.to)),
+                  texts::LineNeverReturns(number_of(jump.to)),
                   flow_.code[last].falls
-                      ? fmt::format("add `return` below line {}", number)
-                      : fmt::format("on line {1}, write `return` instead of `{0}`",
-                                    program_.text_of(end.span), number));
+                      ? texts::AddBelowLine("return", number)
+                      : texts::WriteReturnInstead(number, program_.text_of(end.span)));
   }
 
   static bool is_return(const StatementNode& node) {
@@ -295,9 +288,8 @@ private:
       if (least[i] == most)
         for (const auto& jump : flow_.jumps_of(flow_.code[i]))
           if (jump.call) {
-            findings_.add(rules::GosubDepth, statement(i).span,
-                          fmt::format("{} calls are already open here", most),
-                          "inline the subroutine here, or call it from further up");
+            findings_.add(rules::GosubDepth, statement(i).span, texts::CallsAreOpen(most),
+                          texts::InlineSubroutine());
             break;
           }
   }
@@ -319,10 +311,8 @@ private:
     }
     for (std::uint32_t r = 0; r < routines_.size(); ++r)
       if (calls_itself(r, calls))
-        findings_.add(
-            rules::GosubRecursion, statement(routines_[r]).span,
-            fmt::format("the subroutine at line {} calls itself", number_of(routines_[r])),
-            "only 4 calls can be open at once; use a loop");
+        findings_.add(rules::GosubRecursion, statement(routines_[r]).span,
+                      texts::CallsItself(number_of(routines_[r])), texts::UseALoop());
   }
 
   /// The index of the routine that begins at a line of code.
@@ -359,9 +349,8 @@ private:
           leaves_or_waits(jump.to, jump.from))
         continue;
       findings_.add(rules::BusyLoop, node.span,
-                    fmt::format("lines {} to {} loop forever without waiting", number_of(jump.to),
-                                number_of(jump.from)),
-                    "add a `delay`");
+                    texts::LoopsWithoutWaiting(number_of(jump.to), number_of(jump.from)),
+                    texts::AddADelay());
     }
   }
 

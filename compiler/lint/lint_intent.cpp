@@ -27,14 +27,18 @@ Shows shows(Statement kind) {
   return kind == Statement::Goroll ? Shows::Roll : Shows::Nothing;
 }
 
-std::string_view name_of(Shows what) {
-  switch (what) {
-  case Shows::Colour: return "colour";
-  case Shows::BackLed: return "light";
-  case Shows::Roll: return "roll";
-  case Shows::Nothing: break;
-  }
-  return "";
+/// What is said of each.
+struct ShowsTexts {
+  const Row<>& never_seen;
+  const Row<>& only_last;
+  const Row<>& next;
+};
+ShowsTexts texts_of(Shows what) {
+  if (what == Shows::Colour)
+    return {texts::ColourNeverSeen, texts::OnlyLastColour, texts::NextColour};
+  if (what == Shows::Roll)
+    return {texts::RollNeverSeen, texts::OnlyLastRoll, texts::NextRoll};
+  return {texts::LightNeverSeen, texts::OnlyLastColour, texts::NextLight};
 }
 
 /// What else drives or colours the ball, or stops it.
@@ -198,28 +202,26 @@ private:
     const auto fate = follow(walk, code + 1);
     if (fate.kind == Fate::Kind::Ends && what == Shows::Colour && is_light(statement) &&
         is_only_colour(statement))
-      findings_.add(rules::MissingDelay, statement.span,
-                    "this colour is never seen: the program ends right after it",
-                    "add `delay 1000` below it");
+      findings_.add(rules::MissingDelay, statement.span, texts::ColourAtTheEnd(),
+                    texts::AddBelowIt("delay 1000"));
     if (fate.kind != Fate::Kind::Replaced || (fate.at == code && !fate.round))
       return;
     const auto& next = statement_of(fate.at);
     if (fate.at == code) {
       if (what != Shows::BackLed)
-        findings_.add(rules::MissingDelay, statement.span,
-                      fmt::format("only the last {} of the loop is seen: the loop never waits",
-                                  name_of(what)),
-                      "add `delay 50` below this line");
+        findings_.add(rules::MissingDelay, statement.span, texts_of(what).only_last(),
+                      texts::AddBelowThisLine("delay 50"));
       return;
     }
     if (what == Shows::Roll && (fate.round || fate.at < code))
       return; // rolls that steer replace each other, and turns come before them
-    auto& d = findings_.add(
-        rules::MissingDelay, statement.span,
-        fmt::format("this {0} is never seen: another {0} follows at once{1}", name_of(what),
-                    fate.round || fate.at < code ? ", in the next iteration" : ""),
-        fate.at < code || fate.round ? "add `delay 500` below it" : "add `delay 500` between them");
-    add_note(d, next.span, fmt::format("the next {}", name_of(what)));
+    const auto unseen = texts_of(what).never_seen();
+    auto& d = fate.round || fate.at < code
+                  ? findings_.add(rules::MissingDelay, statement.span,
+                                  texts::InNextIteration(unseen), texts::AddBelowIt("delay 500"))
+                  : findings_.add(rules::MissingDelay, statement.span, unseen,
+                                  texts::AddBetween("delay 500"));
+    add_note(d, next.span, texts_of(what).next());
   }
 
   /// One more colour at the end is a farewell; where it is the only one of a program that takes
@@ -348,15 +350,13 @@ private:
 
   void judge_end(Motion motion, Span where) {
     if (motion.kind == Motion::Kind::Drives) {
-      auto& d =
-          findings_.add(rules::DrivesOn, where, "the program ends while the ball is still driving",
-                        "stop it first: `goroll 0,0,0`");
-      add_note(d, statement_of(motion.roll).span, "it starts driving here");
+      auto& d = findings_.add(rules::DrivesOn, where, texts::EndsWhileDriving(),
+                              texts::StopItFirst("goroll 0,0,0"));
+      add_note(d, statement_of(motion.roll).span, texts::StartsDrivingHere());
       add_stop(motion.roll, where, d);
     }
     if (motion.kind == Motion::Kind::Coasts)
-      add_go(rules::WeakBrake, statement_of(motion.roll),
-             "speed 0 with a go value above 0 lets the ball coast", '0');
+      add_go(rules::WeakBrake, statement_of(motion.roll), texts::LetsBallCoast(), '0');
   }
 
   /// The `delay` below a roll, if nothing jumps on the way to the end and no other one is there.
@@ -407,10 +407,10 @@ private:
       return;
     const auto end = std::string(line_end_of(program_.text));
     auto text = fmt::format("{} {}", from + (to - from) / parts * (parts - 1), stop);
-    d.help = fmt::format("add `{}`", text);
+    d.help = texts::Add(text);
     if (!waits) {
       const auto wait = fmt::format("{} delay 1000", from + (to - from) / parts);
-      d.help = fmt::format("add `{}`, then `{}`", wait, text);
+      d.help = texts::AddTwo(wait, text);
       text = wait + end + text;
     }
     d.fix =
@@ -421,15 +421,13 @@ private:
   void judge_start(const StatementNode& roll) {
     if (brakes_with_speed(roll))
       add_go(rules::GoZero, roll,
-             fmt::format("go 0 brakes, whatever the speed: {} has no effect",
-                         *number_in(program_, program_.items_of(roll)[1])),
-             '1');
+             texts::GoZeroBrakes(*number_in(program_, program_.items_of(roll)[1])), '1');
   }
 
-  void add_go(const Rule& rule, const StatementNode& roll, std::string message, char go) {
+  void add_go(const Rule& rule, const StatementNode& roll, Message message, char go) {
     const auto& item = program_.items_of(roll).back();
     const auto line = std::string(program_.text_of({roll.span.begin, item.span.begin})) + go;
-    auto& d = findings_.add(rule, item.span, std::move(message), fmt::format("write `{}`", line));
+    auto& d = findings_.add(rule, item.span, std::move(message), texts::Write(line));
     d.fix = single_fix(d.help, item.span, std::string(1, go), Safety::Unsafe);
   }
 
@@ -570,16 +568,13 @@ private:
     const auto inner = grown.step > 0 ? std::string(program_.text_of(sum.span))
                                       : fmt::format("{} + {}", letter, turn + grown.step % turn);
     const auto bounded = fmt::format("({}) % {}", inner, turn);
-    auto& d = findings_.add(
-        heading ? rules::HeadingGrows : rules::ValueGrows, sum.span,
-        !heading ? fmt::format("`{}` grows without limit; the {} of `{}` is at most {}", letter,
-                               given.parameter->name, given.row->word, turn - 1)
-        : grown.step > 0
-            ? fmt::format("`{}` is a heading and grows without limit; headings end at {}", letter,
-                          turn - 1)
-            : fmt::format("`{}` is a heading and shrinks without limit; headings begin at 0",
-                          letter),
-        fmt::format("write `{}`", bounded));
+    auto& d =
+        findings_.add(heading ? rules::HeadingGrows : rules::ValueGrows, sum.span,
+                      !heading ? texts::ValueGrowing(letter, texts::of_table(given.parameter->name),
+                                                     given.row->word, turn - 1)
+                      : grown.step > 0 ? texts::HeadingGrowing(letter, turn - 1)
+                                       : texts::HeadingShrinking(letter),
+                      texts::Write(bounded));
     d.fix = single_fix(d.help, sum.span, bounded, heading ? Safety::Safe : Safety::Unsafe);
   }
 

@@ -250,11 +250,10 @@ private:
         if (!jump.call && jump.to != none &&
             (jump.to < pairs_[pair].begin || jump.to > pairs_[pair].end) &&
             !comes_back(jump.to, pairs_[pair])) {
-          auto& d = findings_.add(
-              rules::JumpOutOfFor, program_.items[jump.item].span,
-              fmt::format("line {} is outside the loop, which is left open", number_of(jump.to)),
-              "set the loop variable to its end value and go to the `next`");
-          add_note(d, statement(pairs_[pair].begin).span, "the loop");
+          auto& d =
+              findings_.add(rules::JumpOutOfFor, program_.items[jump.item].span,
+                            texts::OutsideTheLoop(number_of(jump.to)), texts::SetToEndValue());
+          add_note(d, statement(pairs_[pair].begin).span, texts::TheLoop());
         }
     }
   }
@@ -308,7 +307,7 @@ private:
       if (is(node, spec::Statement::For) && (stepped_ & bit(counter_of(node))) == 0)
         findings_.add(
             rules::ForWithoutNext, node.span,
-            fmt::format("the loop has no `next {}`", spec::letter_name(counter_of(node))));
+            texts::LoopHasNo(fmt::format("next {}", spec::letter_name(counter_of(node)))));
   }
 
   // ---- as they run
@@ -462,8 +461,9 @@ private:
   /// is the one.
   void add_next_of_nobody(const Part& part) {
     const auto& node = statement(part.code);
-    auto& d = findings_.add(rules::NextWithoutFor, node.span,
-                            fmt::format("there is no `for {}`", spec::letter_name(part.variable)));
+    auto& d =
+        findings_.add(rules::NextWithoutFor, node.span,
+                      texts::ThereIsNo(fmt::format("for {}", spec::letter_name(part.variable))));
     std::optional<std::uint32_t> innermost;
     for (auto at = part.first_state; at != none; at = states_[at].next) {
       const auto& loops = states_[at].loops;
@@ -476,38 +476,34 @@ private:
     }
     if (!innermost || !lacks_next(*innermost))
       return;
-    d.help = fmt::format("write `next {}`", spec::letter_name(*innermost));
+    d.help = texts::Write(fmt::format("next {}", spec::letter_name(*innermost)));
     d.fix = single_fix(d.help, program_.as<NextView>(node).variable.span,
                        std::string(1, spec::letter_name(*innermost)));
   }
 
   Diagnostic& add_depth(const StatementNode& node, const State& state) {
-    std::string chain;
-    std::vector<std::uint32_t> callers; // outermost first
+    std::vector<const Call*> calls; // outermost first
     for (const auto* call = &calls_[state.call]; call->from != none;
-         call = &calls_[call->from_call]) {
-      chain = fmt::format("{} line {} calls line {}{}", call->from_call == 0 ? ", as" : " and",
-                          number_of(call->from), number_of(call->entry), chain);
-      callers.insert(callers.begin(), call->from);
+         call = &calls_[call->from_call])
+      calls.insert(calls.begin(), call);
+    auto& d = findings_.add(rules::ForDepth, node.span, texts::LoopsAreOpen(state.loops.count()),
+                            texts::EndOneFirst());
+    for (const auto* call : calls) {
+      const auto& more = d.notes.empty() ? texts::AsLineCalls : texts::AndLineCalls;
+      d.message = more(d.message, number_of(call->from), number_of(call->entry));
+      add_note(d, statement(call->from).span, texts::CalledHere());
     }
-    auto& d =
-        findings_.add(rules::ForDepth, node.span,
-                      fmt::format("{} loops are already open here{}", state.loops.count(), chain),
-                      "end one of them first, or compute two counters from one");
-    for (const auto caller : callers)
-      add_note(d, statement(caller).span, "called here");
     return d;
   }
 
   void add_stray_next(const StatementNode& node, Loops loops) {
     if (loops.count() == 0) {
-      findings_.add(rules::NextWithoutFor, node.span, "`next` without `for`");
+      findings_.add(rules::NextWithoutFor, node.span, texts::Without("next", "for"));
       return;
     }
     const auto innermost = spec::letter_name(loops.innermost());
-    findings_.add(rules::NextWithoutFor, node.span,
-                  fmt::format("the innermost loop variable is `{}`", innermost),
-                  fmt::format("end it first: `next {}`", innermost));
+    findings_.add(rules::NextWithoutFor, node.span, texts::InnermostLoopVariable(innermost),
+                  texts::EndItFirst(fmt::format("next {}", innermost)));
   }
 
   /// Beyond these, calls are not told apart any more: no program that fits into a robot has as

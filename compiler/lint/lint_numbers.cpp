@@ -36,13 +36,13 @@ private:
   }
 
   void number_all() {
-    auto& d = findings_.add(
-        rules::MissingLineNumber, faults_[0]->span, "no line has a number",
-        fmt::format("each line begins with a number: `{} {}`; `orb check --fix` numbers them all",
-                    step, text_of(*faults_[0])));
+    auto& d =
+        findings_.add(rules::MissingLineNumber, faults_[0]->span, texts::NoLineHasNumber(),
+                      texts::CommandNumbersAll(fmt::format("{} {}", step, text_of(*faults_[0])),
+                                               "orb check --fix"));
     if (faults_.size() * step > static_cast<std::size_t>(greatest))
       return;
-    d.fix = Fix{"number the lines", {}, Safety::Safe};
+    d.fix = Fix{texts::NumberTheLines(), {}, Safety::Safe};
     for (std::size_t i = 0; i < faults_.size(); ++i)
       d.fix->edits.push_back(number(*faults_[i], static_cast<std::uint32_t>(i + 1) * step));
   }
@@ -79,15 +79,15 @@ private:
     for (std::size_t i = 0; i < run.size(); ++i) {
       auto& d = findings_.add(
           rules::MissingLineNumber, run[i]->span,
-          fmt::format("expected a line number, found `{}`", program_.text_of(run[i]->span)),
-          fmt::format("each line begins with a number from 1 to {}", greatest));
+          texts::Found(texts::Expected(texts::ALineNumber()), program_.text_of(run[i]->span)),
+          texts::LinesBeginWithNumber(greatest));
       auto free = below + std::min(room, step) * static_cast<std::uint32_t>(i + 1);
       if (const auto named = named_between(below, above); run.size() == 1 && named.size() == 1)
         free = named[0]; // what jumps into the gap means this line
       else if (room == 0 || is_named(free))
         continue;
-      d.help = fmt::format("write `{} {}`", free, text_of(*run[i]));
-      d.fix = Fix{fmt::format("number the line {}", free), {number(*run[i], free)}, Safety::Safe};
+      d.help = texts::Write(fmt::format("{} {}", free, text_of(*run[i])));
+      d.fix = Fix{texts::NumberTheLine(free), {number(*run[i], free)}, Safety::Safe};
     }
   }
 

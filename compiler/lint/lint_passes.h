@@ -5,6 +5,7 @@
 #include "compiler/lint/flow.h"
 #include "compiler/lint/lint.h"
 #include "compiler/text/program.h"
+#include "compiler/text/texts.h"
 
 #include <span>
 #include <string>
@@ -14,11 +15,10 @@
 namespace orb::compiler {
 
 /// Adds a place that belongs to a finding.
-void add_note(Diagnostic& diagnostic, Span where, std::string_view what);
+void add_note(Diagnostic& diagnostic, Span where, Message what);
 
 /// A fix of one edit.
-inline Fix single_fix(std::string title, Span span, std::string text,
-                      Safety safety = Safety::Safe) {
+inline Fix single_fix(Message title, Span span, std::string text, Safety safety = Safety::Safe) {
   return Fix{std::move(title), {Edit{span, std::move(text)}}, safety};
 }
 

@@ -2,15 +2,13 @@
 #include "compiler/text/rules.h"
 #include "spec/robots.h"
 
-#include <fmt/format.h>
-
 namespace orb::compiler {
 namespace {
 
 void lint_word(spec::Robot robot, std::string_view word, Span span, Findings& findings) {
   if (const auto* lack = spec::find_lack(robot, word))
     findings.add(rules::RobotLacks, span,
-                 fmt::format("the {} has no `{}`: {}", spec::info(robot).title, word, lack->why));
+                 texts::RobotHasNo(spec::info(robot).title, word, texts::of_table(lack->why)));
 }
 
 } // namespace

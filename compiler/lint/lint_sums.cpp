@@ -143,7 +143,7 @@ private:
         fmt::format("{} * {} / {}", program_.text_of({value.span.begin, nodes[last - 4].span.end}),
                     per_cent, nodes[last - 3].value);
     add(rules::DividesFirst, value.span, divides_first(program_.text_of(value.span), line)).fix =
-        single_fix(fmt::format("write `{}`", line), value.span, line, Safety::Unsafe);
+        single_fix(texts::Write(line), value.span, line, Safety::Unsafe);
   }
 
   // ---- a product that begins at 0
@@ -238,7 +238,7 @@ private:
 
   void add_restart(const StatementNode& restart, std::uint8_t letter) {
     add(rules::SumRestarts, restart.span,
-        sum_restarts(name_of(letter), program_.text_of(restart.span), "`for`"));
+        sum_restarts(name_of(letter), texts::WriteAboveFor(program_.text_of(restart.span))));
   }
 
   Diagnostic& add(const Rule& rule, Span span, Said said) {

@@ -57,15 +57,15 @@ void TextPass::check_bytes_of(std::uint32_t index) {
     } else if ((c < ' ' || c >= '\x7F') && (c != '\t' || in_string) && !byte_seen) {
       byte_seen = true;
       findings_.add(rules::NonprintingByte, {i, i + 1},
-                    fmt::format("byte {:02X} is not printable ASCII", c), "write plain letters");
+                    texts::ByteNotPrintable(fmt::format("{:02X}", c)), texts::WritePlainLetters());
     }
   }
 }
 
 void TextPass::add_tab(std::uint32_t index, std::uint32_t first, std::uint32_t end) {
   auto& d =
-      findings_.add(rules::Tab, {first, first + 1}, "tab instead of a space", "write a space");
-  Fix fix{"write spaces", {}, Safety::Safe};
+      findings_.add(rules::Tab, {first, first + 1}, texts::TabForSpace(), texts::WriteSpace());
+  Fix fix{texts::WriteSpaces(), {}, Safety::Safe};
   bool in_string = false;
   for (auto i = program_.lines[index].span.begin; i < end; ++i) {
     in_string = in_string != (program_.text[i] == '"');
@@ -82,9 +82,8 @@ void TextPass::check_line_ends() {
   const auto begin = static_cast<std::uint32_t>(at);
   const bool pair = at + 1 < program_.text.size() && program_.text[at + 1] == '\n';
   auto& d = findings_.add(rules::LineEnding, {begin, begin},
-                          fmt::format("lines end in {}", pair ? "CRLF" : "CR"),
-                          "the robot's documentation requires LF");
-  Fix fix{"end lines in LF", {}, Safety::Safe};
+                          texts::LinesEndIn(pair ? "CRLF" : "CR"), texts::RobotRequiresLf());
+  Fix fix{texts::EndLinesInLf(), {}, Safety::Safe};
   for (auto i = begin; i < program_.text.size(); ++i)
     if (program_.text[i] == '\r') {
       const bool followed = i + 1 < program_.text.size() && program_.text[i + 1] == '\n';
@@ -104,15 +103,13 @@ void TextPass::check_numbers() {
       continue;
     if (line.number == 0)
       findings_.add(rules::LineNumberRange, line.number_span,
-                    fmt::format("line number 0 is out of range: {} to {}",
-                                spec::value_of(spec::Limit::LeastLineNumber),
-                                spec::value_of(spec::Limit::GreatestLineNumber)));
+                    texts::LineNumberZero(spec::value_of(spec::Limit::LeastLineNumber),
+                                          spec::value_of(spec::Limit::GreatestLineNumber)));
     if (line.number <= last && i > 0)
       ascending = false;
     if (line.number < last && !flow_.is_taken(line.number, i)) // duplicate-line says so
-      findings_.add(rules::UnsortedLines, line.number_span,
-                    fmt::format("line {} is below line {}", line.number, last),
-                    "lines run in the order of the text; `orb fmt --renumber` renumbers them");
+      findings_.add(rules::UnsortedLines, line.number_span, texts::LineIsBelow(line.number, last),
+                    texts::LinesRunInOrder());
     last = line.number;
     if (!line.has_statement())
       add_empty_line(line);
@@ -123,12 +120,12 @@ void TextPass::check_numbers() {
 
 void TextPass::add_empty_line(const Line& line) {
   auto& d = findings_.add(rules::LineWithoutStatement, line.number_span,
-                          fmt::format("line {} has no statement and is dropped", line.number),
-                          line.comment.size() > 0 ? "a comment needs no number" : "");
+                          texts::HasNoStatement(line.number),
+                          line.comment.size() > 0 ? texts::CommentNeedsNoNumber() : Message());
   if (line.number == none - 1 || is_target(line.number))
     return;
   if (line.comment.size() > 0)
-    d.fix = single_fix("remove the number", {line.span.begin, line.comment.begin}, "");
+    d.fix = single_fix(texts::RemoveNumber(), {line.span.begin, line.comment.begin}, "");
 }
 
 bool TextPass::is_target(std::uint32_t number) {
@@ -153,16 +150,15 @@ void TextPass::check_duplicates() {
       continue;
     }
     const auto& line = program_.lines[row.line];
-    auto& d = findings_.add(rules::DuplicateLine, line.number_span,
-                            fmt::format("line number {} is already taken", row.number));
+    auto& d =
+        findings_.add(rules::DuplicateLine, line.number_span, texts::LineNumberTaken(row.number));
     const auto& original = program_.lines[flow_.numbers[first].line];
-    add_note(d, original.number_span, "the first line with that number");
+    add_note(d, original.number_span, texts::FirstWithThatNumber());
     if (++found > most_fixes)
       continue;
     if (const auto free = free_number(row.line)) {
       offered_.push_back(*free);
-      d.fix =
-          single_fix(fmt::format("renumber to {}", *free), line.number_span, std::to_string(*free));
+      d.fix = single_fix(texts::RenumberTo(*free), line.number_span, std::to_string(*free));
     }
   }
 }
@@ -197,7 +193,7 @@ void TextPass::check_line(const Line& line) {
   blank_missing_ = false;
   const auto& whole = program_.statements[line.statement];
   if (line.has_number() && whole.span.size() > 0 && whole.span.begin == line.number_span.end)
-    add_missing_blank(line.number_span.end, "the line number");
+    add_missing_blank(line.number_span.end, texts::MissingSpaceNextToNumber());
   for (const auto& statement : program_.whole(whole)) {
     if (statement.error)
       continue;

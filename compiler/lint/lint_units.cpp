@@ -73,10 +73,10 @@ private:
     const auto speed = number(items[0]).value_or(0);
     if (speed <= 0 || speed > spec::info(Statement::Goroll).parameters()[1].greatest)
       return;
-    auto& d = findings_.add(rules::NeverRolls, items[1].span,
-                            "the ball never rolls: its speed is 0 here and never set higher",
-                            fmt::format("write `goroll 0,{},1`; the heading comes first", speed));
-    d.fix = Fix{"swap heading and speed",
+    auto& d = findings_.add(
+        rules::NeverRolls, items[1].span, texts::BallNeverRolls(),
+        texts::WriteBecause(fmt::format("goroll 0,{},1", speed), texts::HeadingComesFirst()));
+    d.fix = Fix{texts::SwapHeadingAndSpeed(),
                 {{items[0].span, "0"}, {items[1].span, std::to_string(speed)}},
                 Safety::Unsafe};
   }
@@ -121,7 +121,7 @@ private:
                         shown->kind == Statement::BackLed;
     const auto limit = uses<NodeKind::Call>(*shown) ? unseen_party_ms : unseen_colour_ms;
     if ((colour && *ms < limit) || (shown->kind == Statement::Goroll && ends_roll(code)))
-      add_time(time, *ms, fmt::format("`delay {}` waits {}", *ms, milliseconds_of(*ms)),
+      add_time(time, *ms, waits(fmt::format("delay {}", *ms), *ms),
                fmt::format("delay {}", *ms * in_second));
   }
 
@@ -140,9 +140,8 @@ private:
       return;
     const auto ms = number(*input.milliseconds);
     if (ms && *ms > 0 && *ms < least_meant)
-      add_time(*input.milliseconds, *ms, fmt::format("`input` waits {}", milliseconds_of(*ms)),
-               fmt::format("{}{}{}", text(statement, *input.milliseconds, Part::Before),
-                           *ms * in_second, text(statement, *input.milliseconds, Part::After)));
+      add_time(*input.milliseconds, *ms, waits("input", *ms),
+               with_value(statement, *input.milliseconds, *ms * in_second));
   }
 
   void check_timer(const StatementNode& statement, std::uint32_t code) {
@@ -157,7 +156,8 @@ private:
       return;
     const auto& row = spec::variables[let.variable.value];
     add_time(let.expression, *ms,
-             fmt::format("`{}` reaches 0 after {}", row.word, milliseconds_of(*ms)),
+             *ms == 1 ? texts::TimerReachesZeroAfterOne(row.word)
+                      : texts::TimerReachesZero(row.word, *ms),
              fmt::format("{} = {}", row.word, *ms * in_second));
   }
 
@@ -174,17 +174,16 @@ private:
     return false;
   }
 
-  void add_time(const Item& time, std::int32_t ms, std::string message, const std::string& line) {
-    auto& d = findings_.add(rules::WrongUnit, time.span, std::move(message),
-                            fmt::format("for {}, write `{}`", plural_seconds(ms), line));
-    d.fix = single_fix(d.help, time.span, fmt::format("{}", ms * in_second), Safety::Unsafe);
+  void add_time(const Item& time, std::int32_t ms, Message message, const std::string& line) {
+    auto& d = findings_.add(rules::WrongUnit, time.span, std::move(message), for_seconds(ms, line));
+    d.fix = single_fix(d.help, time.span, std::to_string(ms * in_second), Safety::Unsafe);
   }
 
-  static std::string plural_seconds(std::int32_t seconds) {
-    return plural(static_cast<std::size_t>(seconds), "second");
+  static Message for_seconds(std::int32_t seconds, const std::string& line) {
+    return seconds == 1 ? texts::ForOneSecond(line) : texts::ForSeconds(seconds, line);
   }
-  static std::string milliseconds_of(std::int32_t ms) {
-    return plural(static_cast<std::size_t>(ms), "millisecond");
+  static Message waits(std::string_view line, std::int32_t ms) {
+    return ms == 1 ? texts::WaitsOne(line) : texts::Waits(line, ms);
   }
 
   void check_sleep(const StatementNode& statement, std::uint32_t /*code*/) {
@@ -193,13 +192,10 @@ private:
     if (!seconds || *seconds == 0 || *seconds % in_second != 0)
       return;
     const auto meant = *seconds / in_second;
-    auto& d = findings_.add(
-        rules::WrongUnit, time.span,
-        fmt::format("`sleep` counts in seconds: {} is {} minutes", *seconds, *seconds / 60),
-        fmt::format("for {}, write `{}{}{}`", plural_seconds(meant),
-                    text(statement, time, Part::Before), meant,
-                    text(statement, time, Part::After)));
-    d.fix = single_fix(d.help, time.span, fmt::format("{}", meant), Safety::Unsafe);
+    auto& d = findings_.add(rules::WrongUnit, time.span,
+                            texts::SleepCountsInSeconds(*seconds, *seconds / 60),
+                            for_seconds(meant, with_value(statement, time, meant)));
+    d.fix = single_fix(d.help, time.span, std::to_string(meant), Safety::Unsafe);
   }
 
   // ---- speeds and lights
@@ -212,25 +208,21 @@ private:
     if (!value || *value < 1 || *value >= crawls || (items.size() > 2 && number(items[2]) == 0))
       return;
     constexpr std::int32_t brisk = 100; // for a first try
-    add_tiny(statement, speed,
-             fmt::format("speed {} out of {} barely moves the ball", *value, spec::ball::greatest),
-             brisk);
+    add_tiny(statement, speed, texts::BarelyMoves(*value, spec::ball::greatest), brisk);
   }
 
   void check_back_led(const StatementNode& statement, std::uint32_t /*code*/) {
     const auto& value = program_.items_of(statement)[0];
     if (number(value) == 1)
-      add_tiny(statement, value,
-               fmt::format("brightness 1 out of {} is invisible", spec::ball::greatest),
+      add_tiny(statement, value, texts::BrightnessInvisible(spec::ball::greatest),
                spec::ball::greatest);
   }
 
-  void add_tiny(const StatementNode& statement, const Item& value, std::string message,
+  void add_tiny(const StatementNode& statement, const Item& value, Message message,
                 std::int32_t meant) {
     auto& d = findings_.add(rules::TinyValue, value.span, std::move(message),
-                            fmt::format("write `{}{}{}`", text(statement, value, Part::Before),
-                                        meant, text(statement, value, Part::After)));
-    d.fix = single_fix(d.help, value.span, fmt::format("{}", meant), Safety::Unsafe);
+                            texts::Write(with_value(statement, value, meant)));
+    d.fix = single_fix(d.help, value.span, std::to_string(meant), Safety::Unsafe);
   }
 
   void check_colour(const StatementNode& statement, std::uint32_t /*code*/) {
@@ -245,9 +237,8 @@ private:
     }
     if (sum == 0)
       return;
-    auto& d =
-        findings_.add(rules::TinyValue, statement.span, "brightness 1 out of 255 is invisible",
-                      fmt::format("write `{}`", line));
+    auto& d = findings_.add(rules::TinyValue, statement.span,
+                            texts::BrightnessInvisible(spec::ball::greatest), texts::Write(line));
     d.fix = single_fix(d.help, statement.span, line, Safety::Unsafe);
   }
 
@@ -277,11 +268,11 @@ private:
 
   // ---- words
 
-  enum class Part : std::uint8_t { Before, After };
-  std::string text(const StatementNode& statement, const Item& item, Part part) const {
-    return std::string(part == Part::Before
-                           ? program_.text_of({statement.span.begin, item.span.begin})
-                           : program_.text_of({item.span.end, statement.span.end}));
+  /// The statement with another number in the place of one of its values.
+  std::string with_value(const StatementNode& statement, const Item& item,
+                         std::int32_t value) const {
+    return fmt::format("{}{}{}", program_.text_of({statement.span.begin, item.span.begin}), value,
+                       program_.text_of({item.span.end, statement.span.end}));
   }
 
   static constexpr const spec::SmallUnit& milliseconds = *spec::find_small_unit("ms");

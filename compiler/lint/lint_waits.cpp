@@ -1,4 +1,3 @@
-#include "base/text/text.h"
 #include "compiler/lint/lint_passes.h"
 #include "compiler/lint/reading.h"
 #include "compiler/lint/sensor_tests.h"
@@ -98,8 +97,7 @@ private:
     if (rounds < least_rounds || ms > most)
       return;
     findings_.add(rules::EmptyLoop, Span{statement.span.begin, loop.last().span.end},
-                  fmt::format("the loop is a busy wait of about {} milliseconds", ms),
-                  fmt::format("write `delay {}` instead of the loop", ms));
+                  texts::BusyWaitOf(ms), texts::WriteInsteadOfLoop(fmt::format("delay {}", ms)));
   }
 
   // ---- values that are read in loops
@@ -145,17 +143,19 @@ private:
     const StatementNode* read = nullptr;
     for (auto i = first; i <= last && read == nullptr; ++i)
       read = statement_of(i).kind == Statement::Read ? &statement_of(i) : nullptr;
-    auto& d = findings_.add(
-        rules::ReadPastData, read->span,
-        reads ? fmt::format("the loop reads {} values, but `data` has {}", *reads, values)
-              : fmt::format("the loop reads forever, but `data` has {}",
-                            plural(static_cast<std::size_t>(values), "value")),
-        reads ? fmt::format("add {} to `{}`, or let the loop end earlier",
-                            plural(static_cast<std::size_t>(*reads - values), "value"),
-                            program_.text_of(data->span))
-              : "write `rstr` where the values should start again");
+    auto& d = reads ? findings_.add(rules::ReadPastData, read->span,
+                                    texts::LoopReads(*reads, "data", values),
+                                    add_values(*reads - values, program_.text_of(data->span)))
+                    : findings_.add(rules::ReadPastData, read->span,
+                                    counted(static_cast<std::size_t>(values),
+                                            texts::LoopReadsForeverOne, texts::LoopReadsForever),
+                                    texts::WriteRstr());
     d.severity = Severity::Warning;
-    add_note(d, data->span, "the values");
+    add_note(d, data->span, texts::TheValues());
+  }
+
+  static Message add_values(std::int64_t n, std::string_view line) {
+    return n == 1 ? texts::AddOneValue(line) : texts::AddValues(n, line);
   }
 
   /// A loop without an end and without a question: each round reads.
@@ -181,11 +181,9 @@ private:
     const auto next = std::int64_t{*value} + step;
     if (step > 0 ? next > last : next < last)
       return; // the loop ends after this round
-    auto& d = findings_.add(
-        rules::LoopVariableSet, inside.span,
-        fmt::format("the loop never ends: each iteration sets its variable back to {}", *value),
-        "use another variable");
-    add_note(d, statement.span, "the loop");
+    auto& d = findings_.add(rules::LoopVariableSet, inside.span,
+                            texts::EachIterationSetsBack(*value), texts::UseAnotherVariable());
+    add_note(d, statement.span, texts::TheLoop());
   }
 
   // ---- loops that wait
@@ -239,13 +237,12 @@ private:
     };
     const auto& target = program_.items[jump.item].span;
     const Span line{statement.span.begin, target.begin};
-    auto& d =
-        findings_.add(rules::LoopVariableSet, target,
-                      fmt::format("the loop never ends: line {} sets `{}` back to {}",
-                                  number_of(jump.to), spec::letter_name(*letter), *first),
-                      fmt::format("write `{}{}`", program_.text_of(line), number_of(jump.to + 1)));
+    auto& d = findings_.add(
+        rules::LoopVariableSet, target,
+        texts::LineSetsBack(number_of(jump.to), spec::letter_name(*letter), *first),
+        texts::Write(fmt::format("{}{}", program_.text_of(line), number_of(jump.to + 1))));
     d.fix = single_fix(d.help, target, std::to_string(number_of(jump.to + 1)), Safety::Unsafe);
-    add_note(d, begin.span, "set here");
+    add_note(d, begin.span, texts::SetHere());
   }
 
   /// What a line adds to a letter: `A = A + 1`.
@@ -272,15 +269,13 @@ private:
     if (row.access == spec::Access::ReadClears && holds(*test, row.greatest) &&
         !holds(*test, row.least))
       return add_inverted(statement, condition.first, row,
-                          fmt::format("`{}` is {} for one reading only: this does not wait",
-                                      row.word, row.greatest),
+                          texts::ForOneReadingOnly(row.word, row.greatest),
                           fmt::format("{} = {}", row.word, row.least));
     const auto set = is_timer(test->sensor) ? set_above(test->sensor, code) : std::nullopt;
     if (!set || holds(*test, *set))
       return;
     const bool down = *set > 0;
-    add_inverted(statement, condition.first, row,
-                 fmt::format("`{}` starts at {}: this does not wait", row.word, *set),
+    add_inverted(statement, condition.first, row, texts::TimerStartsAt(row.word, *set),
                  fmt::format("{} {} {}", row.word, down ? ">" : "<",
                              down ? test->number : std::max(test->number, 0)));
   }
@@ -316,12 +311,12 @@ private:
   }
 
   void add_inverted(const StatementNode& statement, const Comparison& comparison,
-                    const spec::VariableInfo& row, std::string message, const std::string& until) {
+                    const spec::VariableInfo& row, Message message, const std::string& until) {
     const Span test{comparison.left.span.begin, comparison.right.span.end};
     const auto rest =
         program_.text_of({test.end, program_.statements[statement.then_branch].span.end});
     auto& d = findings_.add(rules::InvertedWait, test, std::move(message),
-                            fmt::format("to wait for `{}` write `if {}{}`", row.word, until, rest));
+                            texts::ToWaitForWrite(row.word, fmt::format("if {}{}", until, rest)));
     d.fix = single_fix(d.help, test, until, Safety::Unsafe);
   }
 
@@ -364,13 +359,12 @@ private:
     if (!sensor)
       return check_unchanged(*test, first <= to && to <= last, number(value));
     auto& d = findings_.add(
-        rules::StaleSensor, copy.span,
-        fmt::format("`{}` is read once, before the loop that waits for it",
-                    spec::info(*sensor).word),
-        fmt::format("write `if {}{}` in the loop", program_.text_of(value.span),
-                    program_.text_of({condition.first.left.span.end,
-                                      program_.statements[test->then_branch].span.end})));
-    add_note(d, test->span, "the loop tests the copy here");
+        rules::StaleSensor, copy.span, texts::ReadOnceBeforeLoop(spec::info(*sensor).word),
+        texts::WriteInLoop(
+            fmt::format("if {}{}", program_.text_of(value.span),
+                        program_.text_of({condition.first.left.span.end,
+                                          program_.statements[test->then_branch].span.end}))));
+    add_note(d, test->span, texts::LoopTestsCopyHere());
   }
 
   /// A loop that asks a letter which is a number from above it, and stays that.
@@ -383,8 +377,8 @@ private:
     const auto name = program_.text_of(condition.left.span);
     const bool down = back == (relation == Relation::Greater);
     findings_.add(rules::EndlessLoop, Span{condition.left.span.begin, condition.right.span.end},
-                  fmt::format("the loop never ends: nothing in it changes `{}`", name),
-                  fmt::format("add `{0} = {0} {1} 1` to the loop", name, down ? '-' : '+'));
+                  texts::NothingChanges(name),
+                  texts::AddToLoop(fmt::format("{0} = {0} {1} 1", name, down ? '-' : '+')));
   }
 
   const Program& program_;

@@ -1,10 +1,10 @@
 #include "compiler/lint/range.h"
 
+#include "compiler/text/texts.h"
 #include "spec/limits.h"
 
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 #include <initializer_list>
 
 namespace orb::compiler {
@@ -163,11 +163,10 @@ std::optional<Range> where(spec::Relation relation, Holds holds, Range left, Ran
   return lo > hi ? std::nullopt : std::optional(narrow(lo, hi));
 }
 
-std::string allowed_values(std::string_view word, const spec::Parameter& parameter) {
-  return parameter.name.empty()
-             ? fmt::format("`{}` takes {} to {}", word, parameter.least, parameter.greatest)
-             : fmt::format("the {} of `{}` must be {} to {}", parameter.name, word, parameter.least,
-                           parameter.greatest);
+Message allowed_values(std::string_view word, const spec::Parameter& parameter) {
+  return parameter.name.empty() ? texts::Takes(word, parameter.least, parameter.greatest)
+                                : texts::MustBe(texts::of_table(parameter.name), word,
+                                                parameter.least, parameter.greatest);
 }
 
 std::optional<std::int32_t> nearest_allowed(const spec::Parameter& parameter, std::int32_t value) {
@@ -220,9 +219,9 @@ std::vector<std::int32_t> landmarks_of(std::vector<std::int32_t> named) {
   return landmarks;
 }
 
-std::string shown(Range range) {
-  return range.constant() ? fmt::format("{}", range.lo)
-                          : fmt::format("{} to {}", range.lo, range.hi);
+Message shown(Range range) {
+  return range.constant() ? Message::as_is(std::to_string(range.lo))
+                          : texts::FromTo(range.lo, range.hi);
 }
 
 Digits printed(Range range) {

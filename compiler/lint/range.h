@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/message.h"
 #include "spec/basic.h"
 
 #include <algorithm>
@@ -7,7 +8,6 @@
 #include <limits>
 #include <optional>
 #include <span>
-#include <string>
 #include <string_view>
 #include <vector>
 
@@ -57,7 +57,7 @@ std::optional<Range> where(spec::Relation relation, Holds holds, Range left, Ran
 std::optional<std::int32_t> nearest_allowed(const spec::Parameter& parameter, std::int32_t value);
 
 /// What the value may be: `the heading of `goroll` must be 0 to 359`.
-std::string allowed_values(std::string_view word, const spec::Parameter& parameter);
+Message allowed_values(std::string_view word, const spec::Parameter& parameter);
 
 /// The heading to drive in instead, for a speed below 0: who writes that wants to drive back.
 /// Nothing where one of them is too far out.
@@ -71,7 +71,7 @@ Range widen(std::span<const std::int32_t> landmarks, Range before, Range now);
 std::vector<std::int32_t> landmarks_of(std::vector<std::int32_t> named);
 
 /// `5` or `1 to 9`.
-std::string shown(Range range);
+Message shown(Range range);
 
 /// How many characters the numbers of a range take when printed: the least and the most.
 struct Digits {

@@ -1,6 +1,7 @@
 #include "compiler/lint/sensor_tests.h"
 
 #include "compiler/text/rules.h"
+#include "compiler/text/texts.h"
 
 #include <fmt/format.h>
 
@@ -14,9 +15,9 @@ SensorAnswer in_unit(const SensorQuestion& question, const spec::VariableInfo& r
   const auto meant = question.written * unit.in_whole;
   const auto line = fmt::format("{} {} {}", row.word, question.symbol, meant);
   return {&rules::WrongUnit,
-          fmt::format("`{}` counts in {}: {} {} is {}", row.word, unit.unit, question.written,
-                      unit.whole, meant),
-          fmt::format("write `{}`", line), line};
+          texts::CountsIn(row.word, unit.unit, fmt::format("{} {}", question.written, unit.whole),
+                          meant),
+          texts::Write(line), line};
 }
 
 SensorAnswer passed(const SensorQuestion& question, const spec::VariableInfo& row, bool down) {
@@ -25,10 +26,8 @@ SensorAnswer passed(const SensorQuestion& question, const spec::VariableInfo& ro
   const auto symbol = down == equal ? '<' : '>';
   const auto limit = equal ? question.number + (down ? 1 : -1) : question.number;
   const auto line = fmt::format("{} {} {}", row.word, symbol, limit);
-  return {&rules::ExactTime,
-          fmt::format("`{}` is {} for only one millisecond, so a loop can miss it", row.word,
-                      question.number),
-          fmt::format("write `{}`", line), line};
+  return {&rules::ExactTime, texts::ForOneMillisecond(row.word, question.number),
+          texts::Write(line), line};
 }
 
 /// The answer of a comparison that has but one.
@@ -52,18 +51,18 @@ std::optional<bool> only_answer(const SensorQuestion& question, const spec::Vari
 
 SensorAnswer constant(const SensorQuestion& question, const spec::VariableInfo& row, bool answer,
                       std::string_view text) {
-  const auto unit = row.unit.empty() ? std::string() : fmt::format(" {}", row.unit);
+  const auto result = answer ? texts::AlwaysTrue(text) : texts::NeverTrue(text);
   SensorAnswer said{&rules::ConstantComparison,
-                    fmt::format("`{}` is {} true: `{}` is {} to {}{}", text,
-                                answer ? "always" : "never", row.word, row.least, row.greatest,
-                                unit),
-                    "", ""};
+                    row.unit.empty()
+                        ? texts::AsSensorIs(result, row.word, row.least, row.greatest)
+                        : texts::AsSensorIsIn(result, row.word, row.least, row.greatest, row.unit),
+                    {},
+                    {}};
   const bool turn = row.unit == "deg" && row.least == 0 && question.number == row.greatest + 1;
   if (turn && question.relation == Relation::Equal)
     said.line = fmt::format("{} = 0", row.word);
-  said.help = turn && !said.line.empty()
-                  ? fmt::format("write `{}`", said.line)
-                  : fmt::format("compare with a number from {} to {}", row.least, row.greatest);
+  said.help = turn && !said.line.empty() ? texts::Write(said.line)
+                                         : texts::CompareWithFromTo(row.least, row.greatest);
   return said;
 }
 

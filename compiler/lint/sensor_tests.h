@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/message.h"
 #include "base/rules.h"
 #include "spec/basic.h"
 
@@ -37,8 +38,8 @@ struct SensorQuestion {
 
 struct SensorAnswer {
   const Rule* rule;
-  std::string message;
-  std::string help;
+  Message message;
+  Message help;
   std::string line; ///< the comparison to write; empty where nobody knows
 };
 

@@ -1,13 +1,14 @@
 #pragma once
 
 #include "base/source.h"
+#include "compiler/text/texts.h"
 #include "spec/basic.h"
 
 #include <cstdint>
 #include <fmt/format.h>
 #include <optional>
-#include <string>
 #include <string_view>
+#include <utility>
 
 // What is computed and lost on the way, for numbered and for structured programs: what two
 // comparisons answer together, and the words for what is found.
@@ -48,13 +49,13 @@ inline std::optional<bool> joint_answer(const Bound& first, const Bound& second,
 
 /// A finding in words.
 struct Said {
-  std::string message;
-  std::string help;
+  Message message;
+  Message help;
 };
 
 /// Of a `for` that never moves on.
 inline Said step_of_zero() {
-  return {"the step of the loop is 0", "write `step 1`, or `step -1` to count down"};
+  return {texts::StepIsZero(), texts::WriteOrCountDown("step 1", "step -1")};
 }
 
 /// `step 0`, with its word: from behind the `end` of a loop to the end of its `step`.
@@ -64,33 +65,29 @@ inline Span step_clause(std::string_view text, Span end, Span step) {
 
 /// Of two comparisons with one answer, and what was likely meant.
 inline Said one_answer(std::string_view test, bool answer, std::string_view meant) {
-  return {fmt::format("`{}` is {} true", test, answer ? "always" : "never"),
-          fmt::format("write `{}`", meant)};
+  return {answer ? texts::AlwaysTrue(test) : texts::NeverTrue(test), texts::Write(meant)};
 }
 
 /// Of `a = b`, then `b = a`; `kept` is a name for the old value.
 inline Said lost_exchange(std::string_view a, std::string_view b, std::string_view kept) {
-  return {
-      fmt::format("the old value of `{0}` is lost: the next line sets `{1}` to itself", a, b),
-      fmt::format("save it first: `{2} = {0}`, then `{0} = {1}`, then `{1} = {2}`", a, b, kept)};
+  return {texts::OldValueLost(a, b),
+          texts::SaveItFirst(fmt::format("{} = {}", kept, a), fmt::format("{} = {}", a, b),
+                             fmt::format("{} = {}", b, kept))};
 }
 
 /// Of a share that is divided first, and the same multiplied first.
 inline Said divides_first(std::string_view share, std::string_view meant) {
-  return {fmt::format("`{}` discards the remainder of the division", share),
-          fmt::format("multiply first: `{}`", meant)};
+  return {texts::DiscardsRemainder(share), texts::MultiplyFirst(meant)};
 }
 
 /// Of a variable that is only ever multiplied.
 inline Said stays_zero(std::string_view name) {
-  return {fmt::format("`{}` starts at 0, and 0 times anything is 0", name),
-          fmt::format("set it above the loop: `{} = 1`", name)};
+  return {texts::StartsAtZero(name), texts::SetAboveLoop(fmt::format("{} = 1", name))};
 }
 
-/// Of a sum that a line of its loop sets back.
-inline Said sum_restarts(std::string_view name, std::string_view line, std::string_view loop) {
-  return {fmt::format("`{}` is reset in every iteration of the loop", name),
-          fmt::format("write `{}` above the {}", line, loop)};
+/// Of a sum that a line of its loop sets back, and where that belongs.
+inline Said sum_restarts(std::string_view name, Message where) {
+  return {texts::ResetInEveryIteration(name), std::move(where)};
 }
 
 } // namespace orb::compiler

@@ -94,10 +94,10 @@ private:
   /// Where a blank should be at `at`, and where one can be put.
   void check_side(std::uint32_t at, std::uint32_t gap, std::string_view word) {
     if (!is_blank(program_.text[at]))
-      add_missing_blank(gap, fmt::format("`{}`", word));
+      add_missing_blank(gap, texts::MissingSpaceNextTo(word));
   }
 
-  void add_missing_blank(std::uint32_t at, std::string_view what);
+  void add_missing_blank(std::uint32_t at, Message message);
 
   // ---- expressions
 

@@ -7,8 +7,7 @@ void TextPass::check_branch(const StatementNode& statement) {
   const auto& row = spec::info(statement.kind);
   if (row.in_then == spec::InThen::Unlisted)
     findings_.add(rules::UndocumentedInBranch, statement.word,
-                  fmt::format("`{}` is not documented inside `then` and `else`", row.word),
-                  "move it to a line of its own and jump there");
+                  texts::NotDocumentedInBranch(row.word), texts::MoveToOwnLine());
 }
 
 void TextPass::check(const StatementNode& statement) {
@@ -41,9 +40,8 @@ void TextPass::check_age_of_goroll(const StatementNode& statement) {
   if (row.since <= target_.version || values.size() < row.parameters().size())
     return;
   add_newer(statement.word, row.word, row.since);
-  findings_.all().back().help =
-      fmt::format("in those versions it took two values: write `{}`",
-                  program_.text_of({statement.word.begin, values[values.size() - 2].span.end}));
+  findings_.all().back().help = texts::TookTwoValues(
+      program_.text_of({statement.word.begin, values[values.size() - 2].span.end}));
 }
 
 void TextPass::check_age_of_timer(const LetView& let) {
@@ -56,27 +54,25 @@ void TextPass::check_age_of_timer(const LetView& let) {
     return;
   auto& d = findings_.add(
       rules::NewerThanTarget, let.variable.span,
-      fmt::format(
-          "a timer that is set to 0 counts up only in orbBasic {} and later; the target is {}",
-          spec::info(row.since).text, spec::info(target_.version).text),
-      "set it to a number and see how far it has counted down");
+      texts::TimersCountUpSince(spec::info(row.since).text, spec::info(target_.version).text),
+      texts::SetTimerAndLook());
   d.severity = Severity::Warning;
 }
 
 void TextPass::add_newer(Span span, std::string_view word, spec::BasicVersion since) {
-  findings_.add(rules::NewerThanTarget, span,
-                fmt::format("`{}` needs orbBasic {}; the target is {}", word,
-                            spec::info(since).text, spec::info(target_.version).text));
+  findings_.add(
+      rules::NewerThanTarget, span,
+      texts::NeedsVersion(word, spec::info(since).text, spec::info(target_.version).text));
 }
 
 void TextPass::check_let(const StatementNode& statement) {
   check_age_of_timer(program_.as<LetView>(statement));
   if (statement.spelling != Spelling::Let)
     return;
-  auto& d =
-      findings_.add(rules::UndocumentedLet, statement.word, "`let` is not documented", "remove it");
+  auto& d = findings_.add(rules::UndocumentedLet, statement.word, texts::LetNotDocumented(),
+                          texts::RemoveIt());
   const auto begin = program_.as<LetView>(statement).variable.span.begin;
-  d.fix = single_fix("remove `let`", {statement.word.begin, begin}, "");
+  d.fix = single_fix(texts::RemoveLet(), {statement.word.begin, begin}, "");
 }
 
 void TextPass::check_if(const StatementNode& statement) {
@@ -118,18 +114,17 @@ void TextPass::check_targets() {
 }
 
 void TextPass::add_empty_target(const Item& target, std::uint32_t index) {
-  auto& d = findings_.add(rules::EmptyTarget, target.span,
-                          fmt::format("line {} has no statement and is dropped", target.value),
-                          "jump to the line below it");
+  auto& d = findings_.add(rules::EmptyTarget, target.span, texts::HasNoStatement(target.value),
+                          texts::JumpBelow());
   const auto at = program_.lines.begin() + index;
   const auto below = std::find_if(at, program_.lines.end(), [](const Line& line) {
     return line.has_number() && line.has_statement();
   });
   if (below == program_.lines.end()) {
-    d.help = fmt::format("write `{} end`", target.value);
+    d.help = texts::Write(fmt::format("{} end", target.value));
     d.fix = single_fix(d.help, {at->number_span.end, at->number_span.end}, " end");
   } else if (below->number < none - 1) {
-    d.help = fmt::format("jump to the line below it: {}", below->number);
+    d.help = texts::JumpBelowTo(below->number);
     d.fix = single_fix(d.help, target.span, std::to_string(below->number));
   }
 }
@@ -155,27 +150,27 @@ std::optional<std::uint32_t> TextPass::number_like(const Item& target) const {
 }
 
 void TextPass::add_missing_target(const Item& target) {
-  auto& d = findings_.add(rules::MissingTarget, target.span,
-                          fmt::format("there is no line {}", program_.text_of(target.span)));
+  const auto written = program_.text_of(target.span);
+  auto& d = findings_.add(rules::MissingTarget, target.span, texts::NoSuchLine(written));
   if (const auto meant = number_like(target)) {
-    d.fix = single_fix(fmt::format("jump to line {}", *meant), target.span, std::to_string(*meant),
-                       Safety::Unsafe);
+    d.fix =
+        single_fix(texts::JumpToLine(*meant), target.span, std::to_string(*meant), Safety::Unsafe);
     return;
   }
   if (!flow_.numbers.empty() && target.value < flow_.numbers.front().number) {
     const auto first = flow_.numbers.front().number;
-    d.message += fmt::format("; the first one is {}", first);
-    d.fix = single_fix(fmt::format("jump to line {}", first), target.span, std::to_string(first),
-                       Safety::Unsafe);
+    d.message = texts::NoSuchLineFirst(written, first);
+    d.fix =
+        single_fix(texts::JumpToLine(first), target.span, std::to_string(first), Safety::Unsafe);
     return;
   }
   const auto next =
       std::lower_bound(flow_.numbers.begin(), flow_.numbers.end(), target.value,
                        [](const auto& row, std::uint32_t n) { return row.number < n; });
   if (next != flow_.numbers.end())
-    d.help = fmt::format("the next one is {}", next->number);
+    d.help = texts::NextLineIs(next->number);
   else if (!flow_.numbers.empty())
-    d.help = fmt::format("the last one is {}", flow_.numbers.back().number);
+    d.help = texts::LastLineIs(flow_.numbers.back().number);
 }
 
 void TextPass::check_print(std::span<const Item> items) {
@@ -209,36 +204,33 @@ void TextPass::check_single_quotes(const StatementNode& statement, Span comment)
     return;
   const auto quoted = fmt::format("\"{}\"", text.substr(1, last - 1));
   auto& d = findings_.add(rules::SingleQuotes, {statement.span.begin, comment.end},
-                          "`'` starts a comment, so this prints an empty line",
-                          fmt::format("write `print {}{}`", quoted, rest));
+                          texts::StartsAComment('\''),
+                          texts::Write(fmt::format("print {}{}", quoted, rest)));
   if (quoted.find('"', 1) == quoted.size() - 1)
     d.fix = single_fix(
         d.help, {comment.begin, comment.begin + static_cast<std::uint32_t>(last) + 1}, quoted);
 }
 
 void TextPass::add_semicolon(const Item& semicolon, const Item& next, const std::string& spaced) {
-  auto& d = findings_.add(
-      rules::SemicolonInPrint, semicolon.span, "`;` only has an effect at the end of a `print`",
-      fmt::format("write `print {}`, with `,` where a space is to be printed", spaced));
+  auto& d =
+      findings_.add(rules::SemicolonInPrint, semicolon.span, texts::OnlyAtTheEnd(';', "print"),
+                    texts::WriteWithSpaces(fmt::format("print {}", spaced), ','));
   // A blank keeps what stands on both sides apart; a minus sign would join them.
   if (program_.text[next.span.begin] != '-')
-    d.fix = single_fix("write a space", {semicolon.span.begin, next.span.begin}, " ");
+    d.fix = single_fix(texts::WriteSpace(), {semicolon.span.begin, next.span.begin}, " ");
 }
 
 void TextPass::check_data(std::span<const Item> values) {
   const auto count = static_cast<std::uint32_t>(values.size());
   const auto most = static_cast<std::uint32_t>(spec::value_of(spec::Limit::DataValues));
   if (count > most)
-    findings_.add(
-        rules::TooManyDataValues, values[most].span,
-        fmt::format("the line has {} values; the robot ignores those after the {}th", count, most));
+    findings_.add(rules::TooManyDataValues, values[most].span, texts::LineHasValues(count, most));
   for (const auto& value : values) {
     const auto& root = program_.nodes[value.value];
     const bool negative =
         root.kind == NodeKind::Negate && program_.nodes[value.value - 1].kind == NodeKind::Number;
     if (root.kind != NodeKind::Number && !negative) {
-      findings_.add(rules::DataExpression, value.span,
-                    "the documentation allows only plain numbers in `data`");
+      findings_.add(rules::DataExpression, value.span, texts::OnlyPlainNumbers());
       break;
     }
   }
@@ -246,9 +238,8 @@ void TextPass::check_data(std::span<const Item> values) {
 
 void TextPass::check_read(const StatementNode& statement) {
   if (program_.items_of(statement).size() > 1)
-    findings_.add(rules::ReadSeveral, statement.span,
-                  "some firmware reads only one variable per `read`",
-                  "write one `read` for each variable");
+    findings_.add(rules::ReadSeveral, statement.span, texts::OneVariablePerRead(),
+                  texts::WriteOneReadEach());
 }
 
 void TextPass::check_gap(std::uint32_t begin, std::uint32_t end, std::string_view word) {
@@ -258,13 +249,12 @@ void TextPass::check_gap(std::uint32_t begin, std::uint32_t end, std::string_vie
   check_side(end - 1, end, word);
 }
 
-void TextPass::add_missing_blank(std::uint32_t at, std::string_view what) {
+void TextPass::add_missing_blank(std::uint32_t at, Message message) {
   if (blank_missing_)
     return; // one for a line is enough
   blank_missing_ = true;
-  auto& d =
-      findings_.add(rules::MissingBlank, {at, at}, fmt::format("missing space next to {}", what));
-  d.fix = single_fix("insert a space", {at, at}, " ");
+  auto& d = findings_.add(rules::MissingBlank, {at, at}, std::move(message));
+  d.fix = single_fix(texts::InsertSpace(), {at, at}, " ");
 }
 
 void TextPass::check_node(const Node& node) {
@@ -272,8 +262,8 @@ void TextPass::check_node(const Node& node) {
   case NodeKind::Number:
     if (node.overflow)
       findings_.add(rules::LiteralTooLarge, node.span,
-                    fmt::format("{} is above {}", program_.text_of(node.span),
-                                spec::value_of(spec::Limit::GreatestInteger)));
+                    texts::IsAbove(program_.text_of(node.span),
+                                   spec::value_of(spec::Limit::GreatestInteger)));
     break;
   case NodeKind::System: check_system(node); break;
   case NodeKind::Group: check_depth(node); break;
@@ -301,14 +291,13 @@ bool TextPass::follows_step(std::uint32_t at) const {
 void TextPass::check_depth(const Node& node) {
   const auto most = spec::value_of(spec::Limit::ExpressionLevels);
   if (node.depth == most + 1)
-    findings_.add(rules::ExpressionLevels, node.span,
-                  fmt::format("more than {} nested parentheses and functions", most),
-                  "compute part of it on a separate line");
+    findings_.add(rules::ExpressionLevels, node.span, texts::MoreLevelsThan(most),
+                  texts::ComputeSeparately());
 }
 
 void TextPass::add_negative(const Node& node) {
-  auto& d = findings_.add(rules::NegativeLiteral, node.span, "negative numbers are not documented",
-                          "write `0-…`");
+  auto& d = findings_.add(rules::NegativeLiteral, node.span, texts::NegativeNotDocumented(),
+                          texts::Write("0-…"));
   const auto version = target_.version;
   if (version == spec::BasicVersion::V0_9)
     d.severity = Severity::Error;
@@ -326,11 +315,11 @@ void TextPass::add_negative(const Node& node) {
   const bool binds = next && spec::info(*next).level == spec::Level::Medium;
   const auto begin = node.span.begin;
   if (!bound && !binds) {
-    d.help = fmt::format("write `0{}`", program_.text_of(node.span));
+    d.help = texts::Write(fmt::format("0{}", program_.text_of(node.span)));
     d.fix = single_fix(d.help, {begin, begin}, "0");
     return;
   }
-  d.help = fmt::format("write `(0{})`", program_.text_of(node.span));
+  d.help = texts::Write(fmt::format("(0{})", program_.text_of(node.span)));
   // Each function around it may get parentheses in the same round, which also count.
   if (2 * node.depth + 1 + deepest_below(node) <= spec::value_of(spec::Limit::ExpressionLevels))
     d.fix =
@@ -342,14 +331,13 @@ void TextPass::check_system(const Node& node) {
   const bool old_name = !row.old_word.empty() && program_.text_of(node.span) == row.old_word;
   if (old_name && target_.version >= row.since) {
     auto& d = findings_.add(rules::OldName, node.span,
-                            fmt::format("`{}` was renamed to `{}` in orbBasic {}", row.old_word,
-                                        row.word, spec::info(row.since).text),
-                            fmt::format("write `{}`", row.word));
+                            texts::WasRenamed(row.old_word, row.word, spec::info(row.since).text),
+                            texts::Write(row.word));
     d.fix = single_fix(d.help, node.span, std::string(row.word));
   } else if (!old_name && row.since > target_.version) {
     add_newer(node.span, row.word, row.since);
     if (!row.old_word.empty())
-      findings_.all().back().help = fmt::format("in that version write `{}`", row.old_word);
+      findings_.all().back().help = texts::InThatVersionWrite(row.old_word);
   }
 }
 
@@ -365,21 +353,20 @@ void TextPass::check_operand(const Node& node, const Node& operand) {
   const auto rest = program_.text_of({first.span.end, operand.span.end});
   const auto all = fmt::format("{} ({})", row.word, program_.text_of(operand.span));
   const auto less = fmt::format("({} {}){}", row.word, inner_text(first), rest);
-  auto& d = findings_.add(
-      rules::FunctionOperand, node.span,
-      fmt::format("`{}` applies to all of `{}`", row.word, program_.text_of(operand.span)));
+  auto& d = findings_.add(rules::FunctionOperand, node.span,
+                          texts::AppliesToAllOf(row.word, program_.text_of(operand.span)));
   // A call as other languages write it, numbers that nobody would leave to the robot to add up, or
   // a sum of calls.
   if (parenthesis || is_constant(operand) || holds_call(operand)) {
-    d.help = fmt::format("write `{}`, or `{}` for all of it", less, all);
+    d.help = texts::WriteOrForAll(less, all);
     d.fix = single_fix(d.help, {node.span.begin, operand.span.end}, less, Safety::Unsafe);
     return;
   }
-  d.help = fmt::format("write `{}`, or `{}` for less", all, less);
+  d.help = texts::WriteOrForLess(all, less);
   // Other fixes of the same round may put parentheses around and into this operand.
   const int levels = node.depth + 1 + (node.depth - 1) + deepest_below(operand);
   if (levels <= spec::value_of(spec::Limit::ExpressionLevels))
-    d.fix = Fix{"put the operand in parentheses",
+    d.fix = Fix{texts::PutInParentheses(),
                 {{{operand.span.begin, operand.span.begin},
                   program_.text[operand.span.begin - 1] == ' ' ? "(" : " ("},
                  {{operand.span.end, operand.span.end}, ")"}},

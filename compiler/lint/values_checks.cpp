@@ -71,44 +71,43 @@ void ValuesPass::check_may_leave(const Item& value, std::string_view word,
   const auto text = program_.text_of(value.span);
   const auto whole = single ? std::string(text) : fmt::format("({})", text);
   const auto turn = std::int64_t{parameter.greatest} + 1;
-  std::string help;
+  Message help;
   if (range.lo == 1 && range.hi == turn)
-    help = fmt::format("write `{} - 1`", whole);
+    help = texts::WriteOneLess(whole);
   else if (range.lo >= 0)
-    help = fmt::format("write `{} % {}`", whole, turn);
+    help = texts::WriteRemainder(whole, turn);
   else if (turn == full_turn && range.lo >= -full_turn)
-    help = fmt::format("write `({} + {}) % {}`", text, full_turn, full_turn);
+    help = texts::WriteTurned(text, full_turn);
   else
-    help = fmt::format("set it to {} or {} first when it is out of range", parameter.least,
-                       parameter.greatest);
-  add_may_leave(value, allowed_values(word, parameter), help);
+    help = texts::SetFirstOutOfRange(parameter.least, parameter.greatest);
+  add_may_leave(value, allowed_values(word, parameter), std::move(help));
 }
 
-void ValuesPass::add_may_leave(const Item& value, const std::string& allowed,
-                               const std::string& help) {
-  findings_.add(rules::MayLeaveRange, value.span,
-                fmt::format("{}, but `{}` can be {}", allowed, program_.text_of(value.span),
-                            shown(range_of(value))),
-                help);
+void ValuesPass::add_may_leave(const Item& value, Message allowed, Message help) {
+  const auto& range = range_of(value);
+  findings_.add(
+      rules::MayLeaveRange, value.span,
+      texts::ButCanBe(std::move(allowed), program_.text_of(value.span), range.lo, range.hi),
+      std::move(help));
 }
 
 void ValuesPass::add_out_of_range(const Item& value, std::string_view word,
                                   const spec::Parameter& parameter) {
-  auto& d = findings_.add(
-      rules::ValueOutOfRange, value.span,
-      fmt::format("{}, found {}", allowed_values(word, parameter), shown(range_of(value))));
+  auto& d =
+      findings_.add(rules::ValueOutOfRange, value.span,
+                    texts::FoundValue(allowed_values(word, parameter), shown(range_of(value))));
   const auto nodes = nodes_of(program_, value);
   const bool written = std::all_of(nodes.begin(), nodes.end(), [](const Node& node) {
     return node.kind == NodeKind::Number || node.kind == NodeKind::Negate;
   });
   if (const auto meant = nearest_allowed(parameter, range_of(value).lo); written && meant)
-    d.fix = single_fix(fmt::format("write {}", *meant), value.span, std::to_string(*meant),
-                       Safety::Unsafe);
+    d.fix =
+        single_fix(texts::WriteValue(*meant), value.span, std::to_string(*meant), Safety::Unsafe);
   constexpr std::int64_t most_lines = 9;
   const auto parts = range_of(value).lo / parameter.greatest + 1;
   if (!d.fix && written && word == spec::info(spec::Statement::Delay).word && parts > 1 &&
       parts <= most_lines)
-    d.help = fmt::format("write `{} {}` on {} lines", word, range_of(value).lo / parts, parts);
+    d.help = texts::WriteOnLines(fmt::format("{} {}", word, range_of(value).lo / parts), parts);
 }
 
 bool ValuesPass::is_counted(const Item& value) const {
@@ -132,22 +131,22 @@ bool ValuesPass::check_loop_range(const Item& value, std::string_view word,
     return false;
   const auto& root = program_.nodes[value.value];
   const auto text = program_.text_of(value.span);
+  const auto& range = range_of(value);
   auto& d =
       findings_.add(rules::LoopLeavesRange, value.span,
-                    fmt::format("{}, but `{}` ranges from {} here", allowed_values(word, parameter),
-                                text, shown(range_of(value))));
-  const bool heading = parameter.greatest + 1 == full_turn && range_of(value).lo >= 0;
+                    texts::ButRanges(allowed_values(word, parameter), text, range.lo, range.hi));
+  const bool heading = parameter.greatest + 1 == full_turn && range.lo >= 0;
   const bool single = root.kind == NodeKind::Letter;
   if (heading) {
     d.help =
-        fmt::format("write `{}{}{} % {}`", single ? "" : "(", text, single ? "" : ")", full_turn);
+        texts::WriteRemainder(single ? std::string(text) : fmt::format("({})", text), full_turn);
     d.fix = Fix{
         d.help,
         {{{value.span.begin, value.span.begin}, single ? "" : "("},
          {{value.span.end, value.span.end}, fmt::format("{} % {}", single ? "" : ")", full_turn)}},
         Safety::Safe};
-  } else if (single && range_of(value).hi > parameter.greatest) {
-    d.help = fmt::format("end the loop at {}", parameter.greatest);
+  } else if (single && range.hi > parameter.greatest) {
+    d.help = texts::EndLoopAt(parameter.greatest);
   }
   return true;
 }
@@ -188,10 +187,12 @@ bool ValuesPass::check_swapped(std::span<const Item> arguments) {
     return false;
   auto& d = findings_.add(
       rules::ValueOutOfRange, arguments[1].span,
-      fmt::format("{}, found {}", allowed_values("goroll", parameters[1]), speed.lo),
-      fmt::format("write `goroll {},{}{}`; the heading comes first", speed.lo, heading.lo,
-                  program_.text_of({arguments[1].span.end, arguments.back().span.end})));
-  d.fix = Fix{"swap them",
+      texts::FoundValue(allowed_values("goroll", parameters[1]), shown(speed)),
+      texts::WriteBecause(
+          fmt::format("goroll {},{}{}", speed.lo, heading.lo,
+                      program_.text_of({arguments[1].span.end, arguments.back().span.end})),
+          texts::HeadingComesFirst()));
+  d.fix = Fix{texts::SwapThem(),
               {{arguments[0].span, std::string(program_.text_of(arguments[1].span))},
                {arguments[1].span, std::string(program_.text_of(arguments[0].span))}},
               Safety::Unsafe};
@@ -211,10 +212,9 @@ bool ValuesPass::check_backward(const StatementNode& statement) {
   const auto line =
       fmt::format("goroll {},{}{}", *back, -speed.lo,
                   program_.text_of({arguments[1].span.end, arguments.back().span.end}));
-  auto& d =
-      findings_.add(rules::ValueOutOfRange, arguments[1].span,
-                    fmt::format("{}, found {}", allowed_values("goroll", parameters[1]), speed.lo),
-                    fmt::format("write `{}` to drive back", line));
+  auto& d = findings_.add(rules::ValueOutOfRange, arguments[1].span,
+                          texts::FoundValue(allowed_values("goroll", parameters[1]), shown(speed)),
+                          texts::WriteToDriveBack(line));
   d.fix =
       single_fix(d.help, {statement.word.begin, arguments.back().span.end}, line, Safety::Unsafe);
   return true;
@@ -222,12 +222,10 @@ bool ValuesPass::check_backward(const StatementNode& statement) {
 
 void ValuesPass::add_missing_go(const StatementNode& statement, const Item& last) {
   const auto speed = range_of(last);
-  auto& d = findings_.add(rules::MissingGo, statement.span,
-                          "since orbBasic 1.2 (August 2012), `goroll` takes 3 values, found 2; the "
-                          "third is 1 to drive, 0 to brake");
+  auto& d = findings_.add(rules::MissingGo, statement.span, texts::ThirdIsGo());
   const bool brakes = speed == Range::only(0);
   const bool known = brakes || speed.lo > 0; // a speed that can be either drives at times
-  d.fix = single_fix("add the go value", last.span,
+  d.fix = single_fix(texts::AddGoValue(), last.span,
                      fmt::format("{},{}", program_.text_of(last.span), brakes ? 0 : 1),
                      known ? Safety::Safe : Safety::Unsafe);
 }
@@ -238,14 +236,14 @@ void ValuesPass::check_flags(const Item& value) {
     if (range.constant() && (range.lo & static_cast<std::int32_t>(row.flag)) != 0 &&
         row.since > target_.version)
       findings_.add(rules::NewerThanTarget, value.span,
-                    fmt::format("flag {} ({}) needs orbBasic {}; the target is {}",
-                                static_cast<int>(row.flag), row.symbol, spec::info(row.since).text,
-                                spec::info(target_.version).text));
+                    texts::FlagNeedsVersion(static_cast<int>(row.flag), row.symbol,
+                                            spec::info(row.since).text,
+                                            spec::info(target_.version).text));
   const auto all = spec::value_of(spec::Limit::GreatestBasicFlags);
   if (range.lo > all &&
       !range.misses(0, spec::info(spec::Statement::Basflg).parameters()[0].greatest))
     findings_.add(rules::UnknownFlags, value.span,
-                  fmt::format("the flags are 1, 2, 4 and 8, found {}", shown(range)));
+                  texts::FoundValue(texts::TheFlagsAre(), shown(range)));
 }
 
 void ValuesPass::check_sleep(const Item& value) {
@@ -256,18 +254,15 @@ void ValuesPass::check_sleep(const Item& value) {
   const auto* number = flow_.find(static_cast<std::uint32_t>(range.lo));
   if (number != nullptr && number->code != none) {
     if (target_.area == Area::Ram)
-      findings_.add(rules::WakesElsewhere, value.span,
-                    fmt::format("the ball wakes up at line {} of the program in flash; this one "
-                                "goes to RAM, which sleep clears",
-                                range.lo),
-                    "give `--area flash`");
+      findings_.add(rules::WakesElsewhere, value.span, texts::WakesInFlash(range.lo),
+                    texts::GiveAreaFlash());
     return;
   }
   auto& d = findings_.add(number == nullptr ? rules::MissingTarget : rules::EmptyTarget, value.span,
-                          fmt::format("no line {} to wake up at", range.lo));
+                          texts::NoLineToWakeUp(range.lo));
   if (target_.area == Area::Ram) {
     d.severity = Severity::Info;
-    d.help = "the line is looked up in the flash area, where this program is not stored";
+    d.help = texts::LookedUpInFlash();
   }
 }
 
@@ -292,20 +287,18 @@ void ValuesPass::check_for(const ForView& loop) {
                   step_of_zero().message, step_of_zero().help);
   const bool away = (step.lo > 0 && start.lo > end.hi) || (step.hi < 0 && start.hi < end.lo);
   if (away) {
-    auto& d =
-        findings_.add(rules::LoopRunsOnce, {loop.start.span.begin, loop.last().span.end},
-                      fmt::format("the loop starts at {} and counts away from {}, so it runs once",
-                                  shown(start), shown(end)));
+    auto& d = findings_.add(rules::LoopRunsOnce, {loop.start.span.begin, loop.last().span.end},
+                            texts::CountsAway(shown(start), shown(end)));
     if (loop.step == nullptr) {
       const auto counts = program_.text_of({variable.span.begin, loop.last().span.end});
-      d.help = fmt::format("to count down, write `for {} step -1`", counts);
+      d.help = texts::ToCountDown(fmt::format("for {} step -1", counts));
       const auto at = loop.last().span.end;
-      d.fix = single_fix("count down", {at, at}, " step -1", Safety::Unsafe);
+      d.fix = single_fix(texts::CountDown(), {at, at}, " step -1", Safety::Unsafe);
     }
   }
   if (variable.kind == ItemKind::Indexed) {
-    findings_.add(rules::IndexedLoop, variable.span, "`Z` as a loop variable",
-                  "count with one of A to X");
+    findings_.add(rules::IndexedLoop, variable.span, texts::ZAsLoopVariable(),
+                  texts::CountWithLetter());
     check_index(variable.span);
     return;
   }
@@ -336,32 +329,29 @@ void ValuesPass::check_index(Span span) {
   index_doubt_ = index_doubt_ || !is_exact(index_letter);
   const auto most = spec::value_of(spec::Limit::IndexedVariables);
   if (range.misses(1, most)) {
-    auto& d = findings_.add(
-        rules::IndexRange, span,
-        index.first_set == nullptr
-            ? "`Z` is used, but `Y` is never set and 0 selects no element"
-            : fmt::format("`Z` is used while `Y` is {}; it must be 1 to {}", shown(range), most));
     if (index.first_set == nullptr)
-      d.help = "`Z` is the list element that `Y` selects; use another letter";
+      findings_.add(rules::IndexRange, span, texts::IndexNeverSet(), texts::UseAnotherLetter());
+    else
+      findings_.add(rules::IndexRange, span,
+                    texts::UsedWhileIndexIs('Z', 'Y', shown(range), 1, most));
   } else if (index_begins_ && (*index_begins_ < 1 || *index_begins_ > most)) {
     auto& d = findings_.add(
         rules::MayLeaveRange, span,
-        fmt::format("`Z` is used while `Y` is {}; it must be 1 to {}", *index_begins_, most),
-        *index_begins_ == 0 ? "let `Y` count from 1" : "");
-    if (*index_begins_ == 0)
+        texts::UsedWhileIndexIs('Z', 'Y', shown(Range::only(*index_begins_)), 1, most));
+    if (*index_begins_ == 0) {
+      d.help = texts::LetCountFromOne();
       count_from_one(span, d);
+    }
     index_begins_.reset();
   } else if (is_exact(index_letter) && (range.lo < 1 || range.hi > most)) {
-    findings_.add(
-        rules::MayLeaveRange, span,
-        fmt::format("`Z` is used while `Y` can be {}; it must be 1 to {}", shown(range), most),
-        fmt::format("keep `Y` within 1 to {}", most));
+    findings_.add(rules::MayLeaveRange, span,
+                  texts::UsedWhileIndexCanBe('Z', 'Y', shown(range), 1, most),
+                  texts::KeepWithin('Y', 1, most));
   } else if (index.first_set != nullptr &&
              index.first_set->span.begin > program_.lines[line_].span.end && in_order_ &&
              !before_y_) {
     before_y_ = true;
-    findings_.add(rules::IndexBeforeY, span, "`Z` is used above the first line that sets `Y`",
-                  "set `Y` to 1 … 25 first");
+    findings_.add(rules::IndexBeforeY, span, texts::UsedAboveY(), texts::SetYFirst());
   }
 }
 
@@ -380,28 +370,26 @@ void ValuesPass::count_from_one(Span use, Diagnostic& d) const {
   if (view.step != nullptr || last.size() != 1 || last[0].kind != NodeKind::Number ||
       last[0].value >= spec::value_of(spec::Limit::IndexedVariables))
     return;
-  d.fix = Fix{"count from 1",
+  d.fix = Fix{texts::CountFromOne(),
               {{view.start.span, "1"}, {view.end.span, std::to_string(last[0].value + 1)}},
               Safety::Unsafe};
-  d.help = fmt::format("write `for Y = 1 to {}`", last[0].value + 1);
+  d.help = texts::Write(fmt::format("for Y = 1 to {}", last[0].value + 1));
 }
 
 void ValuesPass::check_on(const OnView& on) {
   const auto& [selector, targets] = on;
   const auto count = static_cast<std::int32_t>(targets.size());
   const auto range = range_of(selector);
+  const auto list = counted(targets.size(), texts::ListHasOne, texts::ListHas);
   if (range.misses(1, count))
-    findings_.add(rules::SelectorRange, selector.span,
-                  fmt::format("the list has {}, found {}", plural(targets.size(), "line number"),
-                              shown(range)));
+    findings_.add(rules::SelectorRange, selector.span, texts::FoundValue(list, shown(range)));
   else if (!known_[selector.value].exact && !is_counted(selector))
     doubt(selector, 1, count);
   else if (range.lo < 1 || range.hi > count)
-    add_may_leave(selector, fmt::format("the list has {}", plural(targets.size(), "line number")),
-                  range.hi > count
-                      ? fmt::format("write {}", plural(static_cast<std::size_t>(range.hi - count),
-                                                       "more line number"))
-                      : "");
+    add_may_leave(selector, list,
+                  range.hi > count ? counted(static_cast<std::size_t>(range.hi - count),
+                                             texts::WriteOneMoreNumber, texts::WriteMoreNumbers)
+                                   : Message());
 }
 
 void ValuesPass::check_condition(const IfView& condition) {
@@ -424,11 +412,12 @@ void ValuesPass::check_answer(const Comparison& comparison) {
   const auto& value = range_of(comparison.right);
   if (range.constant() || range.has(value.lo))
     return;
+  const auto name = spec::letter_name(*letter);
   findings_.add(rules::ConstantComparison,
                 Span{comparison.left.span.begin, comparison.right.span.end},
-                fmt::format("`{} = {}` is never true: `{}` is {} here", spec::letter_name(*letter),
-                            value.lo, spec::letter_name(*letter), shown(range)),
-                fmt::format("compare with a number from {} to {}", range.lo, range.hi));
+                texts::AsItIsHere(texts::NeverTrue(fmt::format("{} = {}", name, value.lo)), name,
+                                  range.lo, range.hi),
+                texts::CompareWithFromTo(range.lo, range.hi));
 }
 
 } // namespace orb::compiler

@@ -93,10 +93,8 @@ bool ValuesPass::is_exact_sum(const Node& node, std::uint32_t right) const {
 void ValuesPass::note_clearing(const Node& node, const spec::VariableInfo& row) {
   const auto slot = clearing_slots[node.what];
   if (((cleared_on_line_ | cleared_) & bit(slot)) != 0)
-    findings_.add(
-        rules::ClearedByReading, node.span,
-        fmt::format("`{}` is read again, but reading it has already reset it to 0", row.word),
-        "copy it into a variable and use the copy");
+    findings_.add(rules::ClearedByReading, node.span, texts::IsReadAgain(row.word),
+                  texts::CopyIt());
   cleared_on_line_ |= bit(slot);
   if (!conditional_)
     cleared_ |= bit(slot);
@@ -110,11 +108,11 @@ void ValuesPass::check_binary(const Node& node, std::uint32_t index) {
   const bool shifts = op == spec::Operator::ShiftLeft || op == spec::Operator::ShiftRight;
   const auto most = spec::value_of(spec::Limit::GreatestShift);
   if (divides && right == Range::only(0)) {
-    findings_.add(rules::DivisionByZero, right_span, "division by zero");
+    findings_.add(rules::DivisionByZero, right_span, texts::DividesByZero());
     known_[index].range = {};
   } else if (shifts && right.misses(0, most)) {
     findings_.add(rules::ValueOutOfRange, right_span,
-                  fmt::format("a shift must be 0 to {} bits, found {}", most, shown(right)));
+                  texts::FoundValue(texts::ShiftMustBe(most), shown(right)));
     known_[index].range = {};
   } else if (op == spec::Operator::Divide && known_[index].range == Range::only(0)) {
     check_quotient(node, index);
@@ -126,11 +124,11 @@ void ValuesPass::check_call(const Node& node, std::uint32_t index) {
   const auto& range = known_[index - 1].range;
   if (row.function == spec::Function::Rnd && range == Range::only(1) &&
       program_.nodes[index - 1].kind != NodeKind::Letter)
-    findings_.add(rules::AlwaysOne, node.span, "`rnd 1` is always 1", "write `rnd 2` for 1 or 2");
+    findings_.add(rules::AlwaysOne, node.span, texts::RndIsAlwaysOne(), texts::WriteRndTwo());
   if (!range.misses(row.least, row.greatest))
     return;
   findings_.add(rules::ValueOutOfRange, program_.nodes[index - 1].span,
-                fmt::format("`{}` takes {} or more, found {}", row.word, row.least, shown(range)));
+                texts::FoundValue(texts::TakesOrMore(row.word, row.least), shown(range)));
   known_[index].range = {};
 }
 

@@ -189,7 +189,7 @@ private:
 
   void check_may_leave(const Item& value, std::string_view word, const spec::Parameter& parameter);
 
-  void add_may_leave(const Item& value, const std::string& allowed, const std::string& help);
+  void add_may_leave(const Item& value, Message allowed, Message help);
 
   void add_out_of_range(const Item& value, std::string_view word, const spec::Parameter& parameter);
 

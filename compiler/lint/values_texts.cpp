@@ -25,12 +25,10 @@ void ValuesPass::check_print(const StatementNode& statement) {
   }
   const auto limit = static_cast<std::uint64_t>(spec::value_of(spec::Limit::PrintBytes));
   if (least > limit)
-    findings_.add(rules::PrintTooLong, statement.span,
-                  fmt::format("the output is at least {} bytes; the limit is {}", least, limit),
-                  "end the first part with `;` and print the rest on the next line");
+    findings_.add(rules::PrintTooLong, statement.span, texts::OutputIsAtLeast(least, limit),
+                  texts::PrintRestOnNextLine());
   else if (most > limit)
-    findings_.add(rules::PrintMayBeTooLong, statement.span,
-                  fmt::format("the output can reach {} bytes; the limit is {}", most, limit));
+    findings_.add(rules::PrintMayBeTooLong, statement.span, texts::OutputCanReach(most, limit));
 }
 
 void ValuesPass::check_input(const StatementNode& statement) {
@@ -43,10 +41,9 @@ void ValuesPass::check_input(const StatementNode& statement) {
 
 void ValuesPass::check_data(const StatementNode& statement) {
   if (data_.unread != nullptr && !conditional_) {
-    auto& d = findings_.add(rules::DataReplaced, statement.word,
-                            "these values replace the previous `data`, which was never read",
-                            "put all values on one line");
-    add_note(d, data_.unread->span, "these values are lost");
+    auto& d = findings_.add(rules::DataReplaced, statement.word, texts::ReplacesData(),
+                            texts::PutAllOnOneLine());
+    add_note(d, data_.unread->span, texts::ValuesAreLost());
   }
   const auto count = static_cast<std::uint32_t>(program_.items_of(statement).size());
   data_.size = std::min(count, static_cast<std::uint32_t>(spec::value_of(spec::Limit::DataValues)));
@@ -63,12 +60,12 @@ void ValuesPass::check_read(const StatementNode& statement) {
     data_.left = DataSet::unknown;
   } else if (data_.left == DataSet::unknown) {
     if (!has_data())
-      findings_.add(rules::ReadPastData, statement.span, "`read` without `data`",
-                    "add a `data` line above");
+      findings_.add(rules::ReadPastData, statement.span, texts::Without("read", "data"),
+                    texts::AddDataAbove());
   } else if (count > data_.left) {
     findings_.add(rules::ReadPastData, statement.span,
-                  fmt::format("{} value{} left in the data, but this reads {}", data_.left,
-                              data_.left == 1 ? " is" : "s are", count));
+                  data_.left == 1 ? texts::OneValueLeft(count)
+                                  : texts::ValuesLeft(data_.left, count));
     data_.left = DataSet::unknown;
   } else {
     data_.left -= count;
@@ -89,9 +86,9 @@ void ValuesPass::check_quotient(const Node& node, std::uint32_t index) {
   const auto& left = program_.nodes[right.first - 1];
   if (left.kind != NodeKind::Number || right.kind != NodeKind::Number || left.value == 0)
     return;
-  findings_.add(rules::ZeroQuotient, node.span,
-                fmt::format("`{} / {}` is 0: values are integers", left.value, right.value),
-                fmt::format("multiply first: `x * {} / {}`", left.value, right.value));
+  const auto quotient = fmt::format("{} / {}", left.value, right.value);
+  findings_.add(rules::ZeroQuotient, node.span, texts::QuotientIs(quotient, 0),
+                texts::MultiplyFirst("x * " + quotient));
 }
 
 } // namespace orb::compiler

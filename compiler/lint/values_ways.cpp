@@ -82,13 +82,12 @@ void ValuesPass::check_letters() {
     const bool set = letter.first_set != nullptr;
     if (set && !used && !letter.counted && !(i == index_letter && indexed_used_) && !clears(i)) {
       findings_.add(rules::UnusedVariable, letter.first_set->span,
-                    fmt::format("`{}` is set but never used", spec::letter_name(i)));
+                    texts::SetButNeverUsed(spec::letter_name(i)));
     } else if (used && !set) {
-      auto& d = findings_.add(
-          rules::NeverAssigned, letter.first_used->span,
-          fmt::format("`{}` is used but never set, so it is 0", spec::letter_name(i)));
+      auto& d = findings_.add(rules::NeverAssigned, letter.first_used->span,
+                              texts::UsedButNeverSet(spec::letter_name(i)));
       if (const auto meant = meant_by(i); !meant.empty())
-        d.fix = single_fix(fmt::format("write {}", meant), d.span, meant, Safety::Unsafe);
+        d.fix = single_fix(texts::WriteValue(meant), d.span, meant, Safety::Unsafe);
     }
   }
 }

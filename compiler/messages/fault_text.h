@@ -3,10 +3,10 @@
 #include "base/diagnostic.h"
 #include "compiler/text/parse.h"
 #include "compiler/text/program.h"
+#include "compiler/text/texts.h"
 #include "compiler/text/words.h"
 
 #include <algorithm>
-#include <fmt/format.h>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -57,14 +57,14 @@ public:
   }
 
   /// What shows how the statement is written: its example.
-  std::string form() const {
+  Message form() const {
     const auto example = spec::info(fault_.statement).example;
-    return fmt::format("write it like `{}`", example.substr(example.find(' ') + 1));
+    return texts::WriteLike(example.substr(example.find(' ') + 1));
   }
 
   /// Sets a safe fix, if the line has no fault with it or its first one stands after the last
   /// edit.
-  void offer(Diagnostic& d, std::string title, std::vector<Edit> edits) const {
+  void offer(Diagnostic& d, Message title, std::vector<Edit> edits) const {
     std::string line(program_.text_of(line_.span));
     std::size_t last = 0;
     for (auto edit = edits.rbegin(); edit != edits.rend(); ++edit) {

@@ -28,8 +28,7 @@ std::vector<std::string_view> statement_words() {
   return all;
 }
 
-void set_fix(Diagnostic& diagnostic, std::string title, Span span, std::string text,
-             Safety safety) {
+void set_fix(Diagnostic& diagnostic, Message title, Span span, std::string text, Safety safety) {
   diagnostic.fix = Fix{std::move(title), {Edit{span, std::move(text)}}, safety};
 }
 
@@ -42,84 +41,95 @@ public:
     switch (fault_.reason) {
     case Reason::BadNumber:
       return make(rules::LineNumberRange,
-                  fmt::format("line number {} is outside 1 to {}", token(),
-                              spec::value_of(spec::Limit::GreatestLineNumber)));
+                  texts::LineNumberOutside(token(), spec::value_of(spec::Limit::LeastLineNumber),
+                                           spec::value_of(spec::Limit::GreatestLineNumber)));
     case Reason::UnknownWord: return unknown_word();
     case Reason::NotAStatement:
-      return make(rules::SyntaxError, fmt::format("`{}` cannot begin a statement", token()));
+      return make(rules::SyntaxError, texts::CannotBeginStatement(token()));
     case Reason::ReadOnly: return read_only();
     case Reason::IndexedParenthesis:
-      return make(rules::IndexedParenthesis, "`Z` does not take an index in parentheses",
-                  "set `Y` on an earlier line, then use `Z` alone");
+      return make(rules::IndexedParenthesis, texts::NoIndexInParentheses(), texts::SetYEarlier());
     case Reason::ImpliedGoto: {
-      auto d = make(rules::ImpliedGoto, fmt::format("`{}` is not a statement", token()),
-                    fmt::format("write `goto {}`", token()));
-      set_fix(d, "insert `goto`", {fault_.span.begin, fault_.span.begin}, "goto ", Safety::Safe);
+      auto d = make(rules::ImpliedGoto, texts::NotAStatement(token()),
+                    texts::Write(fmt::format("goto {}", token())));
+      set_fix(d, texts::InsertGoto(), {fault_.span.begin, fault_.span.begin}, "goto ",
+              Safety::Safe);
       return d;
     }
     case Reason::TooDeep:
       return make(rules::ExpressionLevels,
-                  fmt::format("far more than {} nested parentheses and functions",
-                              spec::value_of(spec::Limit::ExpressionLevels)),
-                  "compute part of it on a separate line");
-    case Reason::ExpectedStatement: return expected_statement();
+                  texts::FarMoreLevelsThan(spec::value_of(spec::Limit::ExpressionLevels)),
+                  texts::ComputeSeparately());
     case Reason::ExpectedExpression: return expected_expression();
     case Reason::ExpectedTarget: return expected_target();
     case Reason::ExpectedThen: return expected_then();
     case Reason::ExpectedRelation: return expected_relation();
     case Reason::ExpectedParenthesis: return expected_parenthesis();
     case Reason::ExpectedComma: return expected_comma();
-    case Reason::TooManyArguments:
-      return make(rules::SyntaxError, fmt::format("{}, found more", takes()), form());
+    case Reason::TooManyArguments: return make(rules::SyntaxError, takes_found_more(), form());
     case Reason::ExpectedEquals: return expected_equals();
     case Reason::ExpectedVariable:
-    case Reason::ExpectedUserVariable: return expected("a variable, A to Z");
-    case Reason::ExpectedTo: return expected("`to`");
-    case Reason::ExpectedGotoOrGosub: return expected("`goto` or `gosub`");
+    case Reason::ExpectedUserVariable: return expected(texts::AVariable());
+    case Reason::ExpectedTo: return expected_code("to");
+    case Reason::ExpectedGotoOrGosub: return found_instead(texts::ExpectedEither("goto", "gosub"));
     case Reason::Trailing: return trailing();
     case Reason::NestedIf:
-      return make(rules::NestedIf, "`if` cannot be nested",
-                  "join two comparisons with `and`, or write the second on a separate line");
+      return make(rules::NestedIf, texts::CannotBeNested("if"), texts::JoinComparisons("and"));
     case Reason::ExpectedQuote:
-      return make(rules::SyntaxError, "unterminated string", "add `\"` at the end");
-    case Reason::MissingNumber: break; // of all lines at once: lint/lint_numbers.cpp
+      return make(rules::SyntaxError, texts::UnterminatedString(), texts::AddQuote());
+    case Reason::MissingNumber: // never here: said of all lines at once (lint/lint_numbers.cpp)
+    case Reason::ExpectedStatement: break;
     }
-    return make(rules::SyntaxError, "malformed line");
+    return expected(texts::AStatement());
   }
 
 private:
   std::string_view word() const { return spec::info(fault_.statement).word; }
 
-  Diagnostic make(const Rule& rule, std::string message, std::string help = {}) const {
+  Diagnostic make(const Rule& rule, Message message, Message help = {}) const {
     return make_at(rule, fault_.span, std::move(message), std::move(help));
   }
-  Diagnostic make_at(const Rule& rule, Span span, std::string message,
-                     std::string help = {}) const {
+  Diagnostic make_at(const Rule& rule, Span span, Message message, Message help = {}) const {
     return finding(rule, span, std::move(message), std::move(help));
   }
 
-  std::string found() const {
-    return token().empty() ? "the end of the line" : fmt::format("`{}`", token());
+  /// What was wanted, and what stands there.
+  Message with_found(Message problem) const {
+    return token().empty() ? texts::FoundEnd(std::move(problem))
+                           : texts::Found(std::move(problem), token());
   }
 
-  Diagnostic expected(std::string_view what, std::string help = {}) const {
-    return make(rules::SyntaxError, fmt::format("expected {}, found {}", what, found()),
-                std::move(help));
+  Diagnostic found_instead(Message problem, Message help = {}) const {
+    return make(rules::SyntaxError, with_found(std::move(problem)), std::move(help));
+  }
+  Diagnostic expected(Message what, Message help = {}) const {
+    return found_instead(texts::Expected(std::move(what)), std::move(help));
+  }
+  Diagnostic expected_code(std::string_view text) const {
+    return found_instead(texts::ExpectedCode(text));
   }
 
-  /// How many values the statement takes, as a sentence.
-  std::string takes() const {
+  /// How many values the statement takes.
+  Message takes_found_more() const {
     const auto& row = spec::info(fault_.statement);
     const auto most = row.parameters().size();
-    return row.required < most
-               ? fmt::format("`{}` takes {} or {} values", row.word, row.required, most)
-               : fmt::format("`{}` takes {}", row.word, plural(most, "value"));
+    if (row.required < most)
+      return texts::TakesEitherFoundMore(row.word, row.required, most);
+    return most == 1 ? texts::TakesOneFoundMore(row.word) : texts::TakesFoundMore(row.word, most);
+  }
+  Message takes_found_less() const {
+    const auto& row = spec::info(fault_.statement);
+    const auto most = row.parameters().size();
+    if (row.required < most)
+      return texts::TakesEitherFound(row.word, row.required, most, fault_.found);
+    return most == 1 ? texts::TakesOneFound(row.word, fault_.found)
+                     : texts::TakesFound(row.word, most, fault_.found);
   }
 
   Diagnostic unknown_word() const {
     const auto name = token();
     if (equal_words(name, "rem"))
-      return make(rules::Rem, fmt::format("`{}` is not a statement", name), "write `'`");
+      return make(rules::Rem, texts::NotAStatement(name), texts::Write('\''));
     if (after(fault_.span.end) == '=')
       return unknown_variable(name);
     const auto words = statement_words();
@@ -127,22 +137,20 @@ private:
     if (best && !equal_words(*best, name) && repair::is_known_word(name, repair::Where::Line))
       best.reset(); // what people write elsewhere is not misspelt: `wend`
     if (best && equal_words(*best, name))
-      return make(rules::UnknownStatement,
-                  fmt::format("`{}` is not a statement; orbBasic is case-sensitive", name),
-                  fmt::format("write `{}`", *best));
+      return make(rules::UnknownStatement, texts::NotAStatementCase(name), texts::Write(*best));
     for (const auto prefix : words)
       if (name.starts_with(prefix) &&
           find_word(name.substr(prefix.size())).kind != WordKind::Unknown) {
-        auto d = make(rules::UnknownStatement, fmt::format("`{}` is not a statement", name),
-                      fmt::format("add a space after `{}`", prefix));
+        auto d =
+            make(rules::UnknownStatement, texts::NotAStatement(name), texts::AddSpaceAfter(prefix));
         const auto at = fault_.span.begin + static_cast<std::uint32_t>(prefix.size());
         set_fix(d, d.help, {at, at}, " ", Safety::Safe);
         return d;
       }
-    auto d = make(rules::UnknownStatement, fmt::format("`{}` is not a statement", name));
+    auto d = make(rules::UnknownStatement, texts::NotAStatement(name));
     if (best) {
-      d.help = fmt::format("did you mean `{}`?", *best);
-      set_fix(d, fmt::format("write `{}`", *best), fault_.span, *best, Safety::Unsafe);
+      d.help = texts::DidYouMean(*best);
+      set_fix(d, texts::Write(*best), fault_.span, *best, Safety::Unsafe);
       if (is_slip_of_the_hand(name, *best))
         offer(d, d.fix->title, {{fault_.span, *best}});
     }
@@ -165,31 +173,27 @@ private:
     for (const auto& row : spec::variables)
       if (row.access == spec::Access::ReadWrite)
         names.push_back(row.word);
-    auto d = make(rules::UnknownStatement, fmt::format("`{}` is not a variable", name),
-                  "variables are named A to Z");
+    auto d = make(rules::UnknownStatement, texts::NotAVariable(name), texts::VariablesAreNamed());
     if (const auto best = closest(name, names)) {
       const bool same = equal_words(*best, name);
-      d.help = same ? fmt::format("write `{}`; orbBasic is case-sensitive", *best)
-                    : fmt::format("did you mean `{}`? variables are named A to Z", *best);
-      set_fix(d, fmt::format("write `{}`", *best), fault_.span, *best,
-              same ? Safety::Safe : Safety::Unsafe);
+      d.help = same ? texts::WriteBecause(*best, texts::CaseSensitive())
+                    : texts::DidYouMeanVariable(*best);
+      set_fix(d, texts::Write(*best), fault_.span, *best, same ? Safety::Safe : Safety::Unsafe);
     }
     return d;
   }
 
   Diagnostic read_only() const {
-    auto d = make(rules::AssignToSensor, fmt::format("`{}` can only be read", token()));
+    auto d = make(rules::AssignToSensor, texts::CanOnlyBeRead(token()));
     const auto variable = spec::find_variable(token());
     if (variable == spec::Variable::Xpos || variable == spec::Variable::Ypos)
-      d.help = "set the position with `locate x,y`";
+      d.help = texts::SetPositionWith("locate x,y");
     else if (variable == spec::Variable::Yaw)
-      d.help = "set the heading with `heading h`";
+      d.help = texts::SetHeadingWith("heading h");
     else if (variable == spec::Variable::Speed)
-      d.help = "drive with `goroll heading,speed,1`";
+      d.help = texts::DriveWith("goroll heading,speed,1");
     return d;
   }
-
-  Diagnostic expected_statement() const { return expected("a statement"); }
 
   Diagnostic expected_expression() const {
     const auto begin = fault_.span.begin;
@@ -202,35 +206,33 @@ private:
     }
     const auto& row = spec::info(fault_.statement);
     if (row.form == spec::Form::Arguments && token().empty() && !row.parameters().empty())
-      return make(rules::SyntaxError, fmt::format("{}, found {}", takes(), fault_.found), form());
+      return make(rules::SyntaxError, takes_found_less(), form());
     if (!token().empty() && token()[0] == '"')
-      return expected("a number or a variable", "strings can only be printed");
+      return expected(texts::ANumberOrVariable(), texts::StringsCanBePrinted());
     if (token() == ".")
       return unsupported_number();
     if (!token().empty() && is_letter(token()[0]))
       return unknown_name();
-    return expected("a number, a variable or an expression");
+    return expected(texts::AnExpression());
   }
 
   /// A word inside of an expression that means nothing there.
   Diagnostic unknown_name() const {
     const auto name = token();
     if (find_word(name).kind != WordKind::Unknown)
-      return expected("a number, a variable or an expression");
+      return expected(texts::AnExpression());
     std::vector<std::string_view> names;
     for (const auto& row : spec::variables)
       names.push_back(row.word);
     for (const auto& row : spec::functions)
       names.push_back(row.word);
     auto d =
-        make(rules::SyntaxError, fmt::format("`{}` is neither a variable nor a function", name),
-             "variables are named A to Z");
+        make(rules::SyntaxError, texts::NeitherVariableNorFunction(name), texts::VariablesAreNamed());
     if (const auto best = closest(name, names)) {
       const bool same = equal_words(*best, name);
-      d.help = same ? fmt::format("write `{}`; orbBasic is case-sensitive", *best)
-                    : fmt::format("did you mean `{}`?", *best);
+      d.help = same ? texts::WriteBecause(*best, texts::CaseSensitive()) : texts::DidYouMean(*best);
       if (!same)
-        set_fix(d, fmt::format("write `{}`", *best), fault_.span, *best, Safety::Unsafe);
+        set_fix(d, texts::Write(*best), fault_.span, *best, Safety::Unsafe);
     }
     return d;
   }
@@ -240,12 +242,12 @@ private:
     for (const char c : program_.text_of(span))
       if (!is_blank(c))
         op += c;
-    auto d = make_at(rules::BadOperator, span, fmt::format("`{}` is not an operator", op));
+    auto d = make_at(rules::BadOperator, span, texts::NotAnOperator(op));
     if (op == "<>" || op == "!=" || op == "><") {
-      d.help = "write `!`";
+      d.help = texts::Write('!');
       set_fix(d, d.help, span, "!", Safety::Safe);
     } else if (op == "==") {
-      d.help = "write `=`";
+      d.help = texts::Write('=');
       set_fix(d, d.help, span, "=", Safety::Safe);
     } else if (op == "<=" || op == "=<") {
       or_equal(d, span, '<', +1);
@@ -264,14 +266,13 @@ private:
     auto end = begin;
     while (end < line_.span.end && is_digit(text_[end]))
       ++end;
-    d.help = fmt::format("values are integers: write `A {} B {} 1` for `A {}= B`", sign,
-                         step > 0 ? '+' : '-', sign);
+    const char add = step > 0 ? '+' : '-';
+    d.help = texts::IntegersWriteFor(fmt::format("A {} B {} 1", sign, add),
+                                     fmt::format("A {}= B", sign));
     if (const auto name = word_at(begin); name.size() > 0 && ends_comparison(name.end)) {
-      const auto changed =
-          fmt::format("{} {} {} 1", sign, program_.text_of(name), step > 0 ? '+' : '-');
-      d.help = fmt::format("values are integers: write `{}`", changed);
-      set_fix(d, fmt::format("write `{}`", changed), {span.begin, name.end}, changed,
-              Safety::Unsafe);
+      const auto changed = fmt::format("{} {} {} 1", sign, program_.text_of(name), add);
+      d.help = texts::IntegersWrite(changed);
+      set_fix(d, texts::Write(changed), {span.begin, name.end}, changed, Safety::Unsafe);
       return;
     }
     const auto value = parse_number<std::int32_t>(text_.substr(begin, end - begin));
@@ -280,8 +281,9 @@ private:
       return;
     // Older robots have no negative numbers.
     const auto other = *value + step < 0 ? std::string("0 - 1") : std::to_string(*value + step);
-    d.help = fmt::format("values are integers: write `{} {}`", sign, other);
-    d.fix = Fix{fmt::format("write `{} {}`", sign, other),
+    const auto changed = fmt::format("{} {}", sign, other);
+    d.help = texts::IntegersWrite(changed);
+    d.fix = Fix{texts::Write(changed),
                 {Edit{span, std::string(1, sign)}, Edit{{begin, end}, other}},
                 Safety::Safe};
   }
@@ -294,21 +296,20 @@ private:
 
   Diagnostic expected_target() const {
     if (token().empty())
-      return expected("a line number");
+      return expected(texts::ALineNumber());
     return non_literal();
   }
 
   Diagnostic non_literal() const {
-    auto d = make(rules::NonLiteralTarget,
-                  fmt::format("`{}` takes a plain line number, found {}", word(), found()),
+    auto d = make(rules::NonLiteralTarget, with_found(texts::TakesPlainLineNumber(word())),
                   is_letter(token()[0]) && token().size() > 1
-                      ? fmt::format("jump to a line by its number: `{} 100`", word())
-                      : "to choose between lines, use `on A goto 100,200`");
+                      ? texts::JumpByNumber(fmt::format("{} 100", word()))
+                      : texts::ToChooseUse("on A goto 100,200"));
     const auto number =
         fault_.statement == spec::Statement::Gosub && is_letter(token()[0]) ? only_subroutine() : 0;
     if (number > 0 && skip_blanks(fault_.span.end) == code_end()) {
-      d.help = fmt::format("write `{}{}`", program_.text_of({line_.span.begin, fault_.span.begin}),
-                           number);
+      d.help = texts::Write(
+          fmt::format("{}{}", program_.text_of({line_.span.begin, fault_.span.begin}), number));
       set_fix(d, d.help, fault_.span, std::to_string(number), Safety::Unsafe);
     }
     return d;
@@ -346,55 +347,54 @@ private:
 
   Diagnostic expected_then() const {
     if (token() == "and" || token() == "or")
-      return make(rules::TooManyRelations, "`if` takes at most two comparisons",
-                  "put the third in a separate `if`");
+      return make(rules::TooManyRelations, texts::AtMostTwoComparisons(), texts::PutThirdInIf());
     if (token().size() > 1 && is_relation(token()[0]))
       return bad_operator(fault_.span);
-    return expected("`then`");
+    return expected_code("then");
   }
 
   Diagnostic expected_relation() const {
     if (fault_.statement == spec::Statement::If &&
         (token() == "then" || token() == "and" || token() == "or" || token().empty())) {
-      auto d = make(rules::BareCondition, "the condition is not a comparison",
-                    "compare with zero: `! 0`");
+      auto d = make(rules::BareCondition, texts::ConditionIsNoComparison(),
+                    texts::CompareWithZeroLike("! 0"));
       const auto at = skip_back(fault_.span.begin);
       auto begin = at;
       while (begin > line_.span.begin && is_letter(text_[begin - 1]))
         --begin;
       if (begin < at)
-        d.help = fmt::format("compare with zero: `{} ! 0`", text_.substr(begin, at - begin));
+        d.help = texts::CompareWithZeroLike(fmt::format("{} ! 0", text_.substr(begin, at - begin)));
       if (!token().empty() && at < fault_.span.begin)
-        set_fix(d, "compare with zero", {at, at}, " ! 0", Safety::Safe);
+        set_fix(d, texts::CompareWithZero(), {at, at}, " ! 0", Safety::Safe);
       return d;
     }
-    return expected("a comparison: `=`, `!`, `<` or `>`");
+    return found_instead(texts::ExpectedComparison('=', '!', '<', '>'));
   }
 
   Diagnostic expected_parenthesis() const {
     if (!token().empty() && is_relation(token()[0]))
       return fault_.statement == spec::Statement::If
-                 ? make(rules::ParenthesizedRelation, "a comparison cannot be in parentheses",
-                        "remove the parentheses: `if A > 1 and B < 2 then`")
-                 : make(rules::SyntaxError, "comparisons are only allowed in `if`");
+                 ? make(rules::ParenthesizedRelation, texts::ComparisonInParentheses(),
+                        texts::RemoveParentheses("if A > 1 and B < 2 then"))
+                 : make(rules::SyntaxError, texts::ComparisonsOnlyInIf());
     if (token() == ".")
       return unsupported_number();
-    return expected("`)`");
+    return expected_code(")");
   }
 
   Diagnostic expected_comma() const {
     const auto& row = spec::info(fault_.statement);
     if (row.form == spec::Form::Arguments && (token().empty() || token() == "else"))
-      return make(rules::SyntaxError, fmt::format("{}, found {}", takes(), fault_.found), form());
+      return make(rules::SyntaxError, takes_found_less(), form());
     if (token() == ".")
       return unsupported_number();
-    return expected("`,`");
+    return expected_code(",");
   }
 
   Diagnostic expected_equals() const {
     if (token().size() > 1 && token()[0] == '=')
       return bad_operator(fault_.span);
-    return expected("`=`");
+    return expected_code("=");
   }
 
   Diagnostic unsupported_number() const {
@@ -406,22 +406,21 @@ private:
       ++end;
     const Span span{begin, end};
     return make_at(rules::UnsupportedNumber, span,
-                   fmt::format("`{}` is not a decimal integer", program_.text_of(span)),
-                   "orbBasic has only integers; count in tenths or hundredths");
+                   texts::NotADecimalInteger(program_.text_of(span)), texts::OnlyIntegers());
   }
 
   Diagnostic trailing() const {
     const auto here = token();
     const char last = before(fault_.span.begin);
     if (here.empty())
-      return expected("the end of the line");
+      return expected(texts::TheEndOfTheLine());
     if (here == "." ||
         ((here[0] == 'x' || here[0] == 'X') && last == '0' && text_[fault_.span.begin - 1] == '0'))
       return unsupported_number();
     if (!here.empty() && is_relation(here[0])) {
       if (here.size() > 1)
         return bad_operator(fault_.span);
-      return make(rules::SyntaxError, "comparisons are only allowed in `if`");
+      return make(rules::SyntaxError, texts::ComparisonsOnlyInIf());
     }
     const bool branches = spec::info(fault_.statement).form == spec::Form::Branch ||
                           fault_.statement == spec::Statement::On;
@@ -430,10 +429,9 @@ private:
     if (fault_.statement == spec::Statement::Print && is_letter(here[0]) &&
         find_word(here).kind == WordKind::Unknown)
       return unknown_name();
-    const auto what = fault_.statement == spec::Statement::Let
-                          ? std::string("assignment")
-                          : fmt::format("`{}` statement", word());
-    return make(rules::SyntaxError, fmt::format("unexpected {} after the {}", found(), what));
+    return make(rules::SyntaxError, fault_.statement == spec::Statement::Let
+                                        ? texts::UnexpectedAfterAssignment(here)
+                                        : texts::UnexpectedAfterStatement(here, word()));
   }
 };
 

@@ -42,8 +42,8 @@ private:
     const auto parts = repair::split(line, repair::Language::Basic);
     if (!parts.tokens.empty() || parts.comment.empty())
       return std::nullopt;
-    auto d = finding(rules::Rem, fault_.span, "comments start with `'`",
-                     fmt::format("write `{}`", parts.comment));
+    auto d = finding(rules::Rem, fault_.span, texts::CommentsStartWith('\''),
+                     texts::Write(parts.comment));
     d.fix = Fix{d.help, {{{begin(), line_.span.end}, parts.comment}}, Safety::Safe};
     return d;
   }
@@ -60,7 +60,7 @@ private:
     if (!numbered && !alone)
       return std::nullopt;
     auto d = finding(rules::UnknownStatement, {place.begin, colon + 1},
-                     fmt::format("`{}:` is a label; orbBasic has no labels", name));
+                     texts::NoLabels(fmt::format("{}:", name)));
     auto jumps = edits_of_name(name, {});
     std::erase_if(jumps, [&](const Edit& one) {
       return one.span.begin == place.begin || !follows_jump(one.span.begin);
@@ -71,17 +71,16 @@ private:
     const auto number = below == 0 ? line_.number : below;
     if (jumps.empty()) {
       if (alone)
-        offer(d, "make it a comment", {{{begin(), begin()}, "' "}});
+        offer(d, texts::MakeItComment(), {{{begin(), begin()}, "' "}});
       else
-        offer(d, "remove the label", {{{begin(), skip_blanks(colon + 1)}, ""}});
+        offer(d, texts::RemoveLabel(), {{{begin(), skip_blanks(colon + 1)}, ""}});
       return d;
     }
-    d.help =
-        fmt::format("remove {}, and jump to line {}", alone ? "the line" : "the label", number);
+    d.help = alone ? texts::RemoveLineAndJump(number) : texts::RemoveLabelAndJump(number);
     for (auto& jump : jumps)
       jump.text = std::to_string(number);
     if (below == 0) { // what jumps there ends
-      d.help = fmt::format("write `{} end`", number);
+      d.help = texts::Write(fmt::format("{} end", number));
       jumps.push_back({{begin(), colon + 1}, "end"});
     } else {
       const Span line{line_.span.begin, next_line()};
@@ -128,12 +127,10 @@ private:
       return std::nullopt;
     const auto name = program_.text_of(*span);
     const bool sensor = is(Reason::ReadOnly) && name == token();
-    auto d =
-        sensor
-            ? finding(rules::AssignToSensor, *span, fmt::format("`{}` can only be read", name), {})
-            : finding(
-                  is(Reason::ExpectedUserVariable) ? rules::SyntaxError : rules::UnknownStatement,
-                  *span, fmt::format("`{}` is not a variable", name), "variables are named A to Z");
+    auto d = sensor ? finding(rules::AssignToSensor, *span, texts::CanOnlyBeRead(name))
+                    : finding(is(Reason::ExpectedUserVariable) ? rules::SyntaxError
+                                                               : rules::UnknownStatement,
+                              *span, texts::NotAVariable(name), texts::VariablesAreNamed());
     const auto named = letters_of_names();
     const auto letter = letter_of(named, name);
     if (!letter)
@@ -144,18 +141,17 @@ private:
       line.erase(begin() - line_.span.begin, span->begin - begin());
     if (declared && !parse(line).faults.empty())
       return std::nullopt; // it takes more than a name
-    d.help = fmt::format("write `{}`; variables are named A to Z", line);
+    d.help = texts::WriteBecause(line, texts::VariablesAreNamed());
     if (&fault_ != &first_name())
       return d;
     auto edits = edits_of_name(name, {&*letter, 1});
     if (sensor)
-      d.help = fmt::format("write `{}`, and `{}` in the other lines; variables are named A to Z",
-                           line, *letter);
+      d.help = texts::WriteAndElsewhere(line, *letter);
     if (declared)
       edits.insert(std::find_if(edits.begin(), edits.end(),
                                 [&](const Edit& one) { return one.span.begin >= begin(); }),
                    {{begin(), span->begin}, ""});
-    d.fix = Fix{fmt::format("call it `{}` everywhere", *letter), std::move(edits),
+    d.fix = Fix{texts::CallItEverywhere(*letter), std::move(edits),
                 sensor ? Safety::Unsafe : Safety::Safe};
     return d;
   }
@@ -241,8 +237,8 @@ private:
     const auto named = letters_of_names();
     if (!letter_of(named, name))
       return std::nullopt;
-    return finding(rules::SyntaxError, span, fmt::format("`{}` is not a variable", name),
-                   fmt::format("write `{}`; variables are named A to Z", with_letters(named)));
+    return finding(rules::SyntaxError, span, texts::NotAVariable(name),
+                   texts::WriteBecause(with_letters(named), texts::VariablesAreNamed()));
   }
 
   using Named = std::vector<std::pair<std::string_view, char>>;
@@ -364,9 +360,8 @@ private:
     if ((!here && all.empty()) || is(Reason::MissingNumber))
       return std::nullopt;
     const auto at = here ? begin() : all.front();
-    auto d = finding(rules::Colon, {at, at + 1},
-                     "one statement per line; `:` does not separate statements",
-                     "put the rest on a separate line");
+    auto d = finding(rules::Colon, {at, at + 1}, texts::OneStatementPerLine(':'),
+                     texts::PutRestOnLine());
     if (!line_.has_number() || line_.number_span.size() == 0 || all.empty() || all.front() != at)
       return d;
     const auto first = skip_blanks(line_.number_span.end);
@@ -386,8 +381,7 @@ private:
     for (std::size_t i = 0; i < statements.size(); ++i) {
       const auto line =
           fmt::format("{} {}", line_.number + static_cast<std::uint32_t>(i) * step, statements[i]);
-      d.help =
-          i == 0 ? fmt::format("write `{}`", line) : fmt::format("{}, then `{}`", d.help, line);
+      d.help = i == 0 ? texts::Write(line) : texts::Then(d.help, line);
       lines += i == 0 ? "" : line_end_of(text_);
       lines += line;
     }

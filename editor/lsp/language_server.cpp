@@ -23,7 +23,8 @@ struct Waiting {
 } // namespace
 
 struct LanguageServer::State {
-  State(structured::Files* disk, Folders* folders) : space(disk, folders) {}
+  State(structured::Files* disk, Folders* folders, Say say)
+      : space(disk, folders, std::move(say)) {}
 
   Workspace space;
   std::deque<Waiting> waiting;
@@ -81,8 +82,8 @@ struct LanguageServer::State {
   void publish_readers(const std::string& uri);
 };
 
-LanguageServer::LanguageServer(structured::Files* disk, Folders* folders)
-    : state_(std::make_unique<State>(disk, folders)) {}
+LanguageServer::LanguageServer(structured::Files* disk, Folders* folders, Say say)
+    : state_(std::make_unique<State>(disk, folders, std::move(say))) {}
 LanguageServer::~LanguageServer() = default;
 
 std::vector<std::string> LanguageServer::receive(std::string_view message) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/render.h"
 #include "structured/text/files.h"
 
 #include <memory>
@@ -25,8 +26,9 @@ public:
 class LanguageServer {
 public:
   /// What programs include is taken from the open documents, then from `disk`; null: no file. Both
-  /// must outlive the server.
-  explicit LanguageServer(structured::Files* disk = nullptr, Folders* folders = nullptr);
+  /// must outlive the server. `say`: how findings are said.
+  explicit LanguageServer(structured::Files* disk = nullptr, Folders* folders = nullptr,
+                          Say say = &in_english);
   ~LanguageServer();
   LanguageServer(const LanguageServer&) = delete;
   LanguageServer& operator=(const LanguageServer&) = delete;

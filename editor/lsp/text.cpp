@@ -98,7 +98,7 @@ Answer code_actions(const Workspace& space, const Asked& asked) {
       continue;
     if (!overlap(one.span, *place) || !wanted("quickfix"))
       continue;
-    list.push_back({{"title", one.fix->title},
+    list.push_back({{"title", space.say(one.fix->title)},
                     {"kind", "quickfix"},
                     {"isPreferred", one.fix->safety == Safety::Safe},
                     {"diagnostics", Json::array({diagnostic(space, uri, document, one)})},

@@ -37,7 +37,8 @@ const LanguageService& language_of(std::string_view id, std::string_view uri) {
   return basic_service;
 }
 
-Workspace::Workspace(structured::Files* disk, Folders* folders) : disk_(disk), folders_(folders) {
+Workspace::Workspace(structured::Files* disk, Folders* folders, Say told)
+    : say(std::move(told)), disk_(disk), folders_(folders) {
   options.files = this;
 }
 
@@ -50,7 +51,7 @@ std::optional<std::string> Workspace::read(const std::string& path) {
   return disk_ != nullptr ? disk_->read(path) : std::nullopt;
 }
 
-std::string Workspace::obstacle(const std::string& path) {
+Message Workspace::obstacle(const std::string& path) {
   return disk_ != nullptr ? disk_->obstacle(path) : Files::obstacle(path);
 }
 
@@ -118,16 +119,17 @@ std::string Workspace::uri_of(const Source& source) const {
 
 Json diagnostic(const Workspace& space, const std::string& uri, const Document& document,
                 const Diagnostic& one) {
-  Json json{{"range", space.range(document.source, one.span)},
-            {"severity", severity_number(one.severity)},
-            {"source", "orb"},
-            {"message", one.help.empty() ? one.message : one.message + "\n" + one.help}};
+  Json json{
+      {"range", space.range(document.source, one.span)},
+      {"severity", severity_number(one.severity)},
+      {"source", "orb"},
+      {"message", space.say(one.message) + (one.help.empty() ? "" : "\n" + space.say(one.help))}};
   if (one.rule != nullptr)
     json["code"] = one.rule->id;
   for (const auto& note : one.notes)
     json["relatedInformation"].push_back(
         {{"location", {{"uri", uri}, {"range", space.range(document.source, note.span)}}},
-         {"message", note.message}});
+         {"message", space.say(note.message)}});
   return json;
 }
 

@@ -32,12 +32,12 @@ const LanguageService& language_of(std::string_view id, std::string_view uri);
 /// The documents that are open, and what lies beside them on the disk.
 class Workspace final : public structured::Files, public Wording {
 public:
-  /// Both outlive it; null: nothing is on the disk.
-  Workspace(structured::Files* disk, Folders* folders);
+  /// Both outlive it; null: nothing is on the disk. `told`: how findings are said.
+  Workspace(structured::Files* disk, Folders* folders, Say told);
 
   // What programs include: an open document, else what the disk holds.
   std::optional<std::string> read(const std::string& path) override;
-  std::string obstacle(const std::string& path) override;
+  Message obstacle(const std::string& path) override;
   std::string identity(const std::string& path) override;
 
   std::map<std::string, Document>& documents() { return documents_; }
@@ -60,6 +60,7 @@ public:
   std::string uri_of(const Source& source) const;
 
   LanguageOptions options;
+  Say say;
   std::vector<std::string> roots; ///< the paths of the folders that the editor has open
 
 private:

@@ -83,13 +83,15 @@ Words macro_value_words() {
 
 Words test_words() {
   auto words = words_of(testing::line_words);
-  for (const auto word : words_of(testing::when_words))
-    words.push_back(word);
-  for (const auto word : words_of(testing::join_words))
-    if (std::find(words.begin(), words.end(), word) == words.end()) // `for` begins a line, too
-      words.push_back(word);
-  for (const auto* word : {"by", "to", "times", "points", "end", "macro"})
-    words.emplace_back(word);
+  const auto add = [&](const auto& more) {
+    for (const auto word : more)
+      if (std::find(words.begin(), words.end(), word) == words.end()) // `for` begins a line, too
+        words.emplace_back(word);
+  };
+  add(words_of(testing::when_words));
+  add(words_of(testing::join_words));
+  add(testing::operand_words());
+  words.emplace_back("end");
   return words;
 }
 

@@ -26,7 +26,7 @@ int main() {
                                           "20 delay 2000\n"
                                           "30 goroll 0, 0, 0\n"
                                           "40 print \"there\"\n",
-                                          "", {}, orb::run::Lint::Off, files);
+                                          "", {}, files);
   if (!input || input->has_errors())
     return 1;
 

@@ -42,14 +42,15 @@ private:
   Bytes out_;
 };
 
-Drive::Drive(const ordered_json& request) : request_(request), line_(std::make_unique<Line>()) {}
+Drive::Drive(const Request& request)
+    : said_(request.said), request_(request.params), line_(std::make_unique<Line>()) {}
 Drive::~Drive() = default;
 
 tl::expected<std::unique_ptr<Drive>, Problem> Drive::start(Request& request) {
   // What cannot run is told before a robot is asked for anything.
   if (const auto runs = Run::start(request, {}); !runs)
     return tl::unexpected(runs.error());
-  std::unique_ptr<Drive> drive(new Drive(request.params));
+  std::unique_ptr<Drive> drive(new Drive(request));
   drive->options_.robot = robot_named(request.text("robot"));
   return drive;
 }
@@ -71,7 +72,7 @@ Answer Drive::ready(const ordered_json& message) {
   line_->take({link.now(), {}, {}});
   robot->relink(*line_);
   robot_ = std::move(robot);
-  Request request(request_);
+  Request request(request_, said_);
   auto run = Run::start(request, {std::nullopt, true}, robot_.get(), *first);
   if (!run)
     return tl::unexpected(run.error());

@@ -26,7 +26,7 @@ public:
   Run* run() { return run_.get(); }
 
 private:
-  explicit Drive(const ordered_json& request);
+  explicit Drive(const Request& request);
 
   class Line;
   Answer ready(const ordered_json& message);
@@ -35,6 +35,7 @@ private:
   Answer go_on(const ordered_json& message, double wait_ms);
   Answer over();
 
+  Said& said_;
   ordered_json request_; ///< of the run, which begins when the robot is ready
   run::TetherOptions options_;
   std::vector<Done> log_;

@@ -8,6 +8,7 @@
 namespace orb::playground {
 
 const Engine::Row Engine::rows[] = {
+    {"said", &Engine::said},
     {"version", &Engine::version},
     {"check", &Engine::plain<playground::check>},
     {"format", &Engine::plain<playground::format>},
@@ -49,7 +50,7 @@ tl::unexpected<Problem> no_run() {
 Answer Engine::call(const std::string& method, const ordered_json& params) {
   for (const auto& row : rows)
     if (row.name == method) {
-      Request request(params);
+      Request request(params, said_);
       return (this->*row.method)(request);
     }
   return refuse(ExitCode::Usage, fmt::format("there is no method `{}`", method));

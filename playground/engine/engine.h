@@ -31,6 +31,7 @@ private:
   };
   static const Row rows[];
 
+  Answer said(Request& request) { return print(request.said.take()); }
   Answer version(Request&) { return print({{"version", ORB_VERSION}}); }
   Answer files(Request& request);
   Answer lsp(Request& request);
@@ -51,8 +52,9 @@ private:
     return function(request);
   }
 
+  Said said_;
   MemoryFiles folder_;
-  editor::LanguageServer server_{&folder_, &folder_};
+  editor::LanguageServer server_{&folder_, &folder_, said_.say()};
   std::unique_ptr<Run> live_;
   std::optional<Upload> upload_;
   std::unique_ptr<Drive> drive_;

@@ -2,7 +2,6 @@
 
 #include "base/bytes.h"
 #include "playground/engine/sources.h"
-#include "testing/check_files.h"
 #include "testing/suite.h"
 
 #include <algorithm>
@@ -61,7 +60,8 @@ std::vector<std::string> MemoryFiles::sources(const std::string&) {
   return found;
 }
 
-Request::Request(const ordered_json& given) : params(given), files(given), names(texts("names")) {
+Request::Request(const ordered_json& given, Said& kept)
+    : params(given), said(kept), files(given), names(texts("names")) {
   if (names.empty() && !files.first().empty())
     names = {files.first()};
 }
@@ -99,7 +99,7 @@ tl::expected<std::vector<run::SourceFile>, Problem> Request::sources() {
     const auto language = run::language_of(name, "");
     if (!language && !testing::is_no_program(name))
       return refuse(run::unknown_content(name));
-    all.push_back({name, language.value_or(run::Language::Basic), Source(name, *std::move(text))});
+    all.push_back({name, language, Source(name, *std::move(text))});
   }
   return all;
 }
@@ -110,7 +110,7 @@ tl::expected<std::vector<run::Input>, Problem> Request::inputs() {
     auto text = read(name);
     if (!text)
       return tl::unexpected(text.error());
-    auto input = run::read_input(name, *std::move(text), "", {}, run::Lint::Off, files);
+    auto input = run::read_input(name, *std::move(text), "", {}, files);
     if (!input)
       return refuse(input.error());
     if (input->has_errors())

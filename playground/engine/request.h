@@ -4,6 +4,7 @@
 #include "base/source.h"
 #include "base/time.h"
 #include "editor/lsp/language_server.h"
+#include "playground/engine/said.h"
 #include "run/input.h"
 #include "structured/text/files.h"
 
@@ -54,9 +55,10 @@ private:
 
 /// The files of a request and which of them are meant.
 struct Request {
-  explicit Request(const ordered_json& given);
+  Request(const ordered_json& given, Said& kept);
 
   const ordered_json& params;
+  Said& said; ///< keeps what the answer says; outlives the request
   MemoryFiles files;
   std::vector<std::string> names;
 

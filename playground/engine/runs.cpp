@@ -37,7 +37,7 @@ tl::expected<std::unique_ptr<debug::Launched>, Problem> launch(Request& request)
   return *std::move(launched);
 }
 
-ordered_json fault_json(const run::ProgramError& fault) {
+ordered_json fault_json(const run::ProgramError& fault, const Say& say) {
   return {{"file", fault.file},
           {"line", fault.place.line},
           {"column", fault.place.column},
@@ -46,15 +46,15 @@ ordered_json fault_json(const run::ProgramError& fault) {
           {"message", spec::info(fault.code).text},
           {"seen", fault.cause.seen},
           {"variables", fault.cause.variables},
-          {"finding", fault.finding},
-          {"help", run::help_of(fault)},
+          {"finding", say(fault.finding)},
+          {"help", say(run::help_of(fault))},
           {"text", run::render(fault, Style{})}};
 }
 
-ordered_json ending_json(const run::Ending& ending) {
+ordered_json ending_json(const run::Ending& ending, const Say& say) {
   auto faults = ordered_json::array();
   for (const auto& fault : ending.faults)
-    faults.push_back(fault_json(fault));
+    faults.push_back(fault_json(fault, say));
   return {{"reason", run::to_string(ending.reason)},
           {"ms", milliseconds(ending.lasted)},
           {"lines", ending.lines},
@@ -81,6 +81,7 @@ Run::start(Request& request, const Wanted& wanted, vm::Elsewhere* robot, const v
     return tl::unexpected(launched.error());
   std::unique_ptr<Run> made(new Run);
   made->title_ = request.names.front();
+  made->say_ = request.said.say();
   made->wanted_ = wanted;
   made->launched_ = *std::move(launched);
   auto& options = made->launched_->options;
@@ -143,7 +144,7 @@ tl::expected<void, Problem> Run::apply(const std::string& line) {
   const Source source("stimulus", is_wall ? line : "at 0s " + line);
   const auto script = vm::parse_stimulus(source);
   if (!script.diagnostics.empty())
-    return refuse(ExitCode::BadInput, script.diagnostics.front().message);
+    return refuse(ExitCode::BadInput, in_english(script.diagnostics.front().message));
   for (const auto& event : script.events) {
     live_->apply(event.stimulus);
     // What somebody does by hand is part of the world: nobody says later that it never came.
@@ -162,7 +163,7 @@ std::string Run::frame() {
   const auto prints = std::string_view(prints_).substr(told_prints_);
   auto faults = ordered_json::array();
   for (const auto& fault : std::exchange(faults_, {}))
-    faults.push_back(fault_json(fault));
+    faults.push_back(fault_json(fault, say_));
   const ordered_json frame{{"ms", milliseconds(live_->time())},
                            {"pose", pose_json(ball.body().pose())},
                            {"led", rgb(ball.led())},
@@ -190,7 +191,7 @@ Answer Run::answer() {
   if (trace_)
     trace_->finish(*ending);
   ordered_json answer{
-      {"ending", ending_json(*ending)}, {"hint", hint()}, {"prints", from_latin1(prints_)}};
+      {"ending", ending_json(*ending, say_)}, {"hint", hint()}, {"prints", from_latin1(prints_)}};
   if (trace_)
     answer["trace"] = trace_text_;
   auto text = print(answer);

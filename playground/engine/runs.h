@@ -65,6 +65,7 @@ private:
   std::string report_of(const report::Journey& journey) const;
 
   std::string title_;
+  Say say_;
   std::unique_ptr<debug::Launched> launched_;
   Wanted wanted_;
   std::optional<report::Journey> journey_;

@@ -8,8 +8,9 @@
 #include "editor/languages/structured/tree.h"
 #include "protocol/macro.h"
 #include "report/course.h"
+#include "run/check_files.h"
 #include "structured/lift/lift.h"
-#include "testing/check_files.h"
+#include "testing/suite.h"
 
 #include <fmt/format.h>
 
@@ -17,9 +18,9 @@ namespace orb::playground {
 namespace {
 
 const editor::LanguageService& service_of(const run::SourceFile& file) {
-  if (testing::is_no_program(file.path))
+  if (!file.language)
     return editor::test_service;
-  switch (file.language) {
+  switch (*file.language) {
   case run::Language::Basic: return editor::basic_service;
   case run::Language::Structured: return editor::structured_service;
   case run::Language::Macro: break;
@@ -33,7 +34,9 @@ Answer check(Request& request) {
   const auto sources = request.sources();
   if (!sources)
     return tl::unexpected(sources.error());
-  return render_json(testing::check_files(*sources, {}, {}, request.files).files);
+  auto found = run::check_files(*sources, {}, {}, request.files);
+  testing::check_tests(*sources, found.files, request.files);
+  return render_json(found.files, request.said.say());
 }
 
 Answer format(Request& request) {
@@ -86,7 +89,7 @@ Answer tree(Request& request) {
   if (&service_of(file) != &editor::structured_service)
     return refuse(ExitCode::Usage, fmt::format("{} is no structured program", file.path));
   if (const auto refused = compiler::refuse_text(file.source.text()))
-    return refuse(ExitCode::BadInput, refused->message);
+    return refuse(ExitCode::BadInput, in_english(refused->message));
   return editor::structured_tree(file.source.text());
 }
 

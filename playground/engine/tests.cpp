@@ -34,7 +34,8 @@ tl::expected<testing::Suite, Problem> make_suite(Request& request,
   std::vector<FileFindings> findings;
   for (const auto& file : suite->files)
     findings.push_back({file.source.get(), file.file.diagnostics, {}});
-  return tl::unexpected(Problem{ExitCode::Usage, "the tests have mistakes", render_json(findings)});
+  return tl::unexpected(Problem{ExitCode::Usage, "the tests have mistakes",
+                                render_json(findings, request.said.say())});
 }
 
 testing::SuiteOptions suite_options(const Request& request) {
@@ -55,7 +56,8 @@ Answer test(Request& request) {
   Unwatched progress;
   const auto results = testing::run_suite(*suite, {}, progress);
   const auto text = testing::render_text(results, testing::Listing::All, Style{});
-  return fmt::format(R"({{"text":{},"results":{}}})", print(text), testing::render_json(results));
+  return fmt::format(R"({{"text":{},"results":{}}})", print(text),
+                     testing::render_json(results, request.said.say()));
 }
 
 Answer replay(Request& request) {

@@ -2,9 +2,9 @@
 
 #include "run/cause/places.h"
 
-#include "compiler/check.h"
 #include "compiler/text/rules.h"
 #include "run/run.h"
+#include "run/texts.h"
 #include "spec/limits.h"
 
 #include <algorithm>
@@ -144,21 +144,21 @@ private:
   }
 
   /// The line with another expression in place of the suspect's.
-  std::string with(const Suspect& suspect, std::string_view expression) const {
+  Message with(const Suspect& suspect, std::string_view expression) const {
     const auto span = program_.nodes[suspect.root].span;
     const auto before =
         program_.text.substr(statement_.span.begin, span.begin - statement_.span.begin);
     const auto after = program_.text.substr(span.end, statement_.span.end - span.end);
-    return fmt::format("write `{} {}{}{}`", line_.number, before, expression, after);
+    return texts::Write(fmt::format("{} {}{}{}", line_.number, before, expression, after));
   }
 
   /// The line after a condition; empty where the language has no place for one.
-  std::string guarded(std::string_view condition) const {
+  Message guarded(std::string_view condition) const {
     if (spec::info(statement_.kind).in_then == spec::InThen::Refused ||
         spec::info(statement_.kind).form == spec::Form::Loop)
-      return "";
-    return fmt::format("write `{} if {} then {}`", line_.number, condition,
-                       program_.text_of(statement_.span));
+      return {};
+    return texts::Write(fmt::format("{} if {} then {}", line_.number, condition,
+                                    program_.text_of(statement_.span)));
   }
 
   /// A number for a line just before this one; nothing where none is free.
@@ -199,21 +199,21 @@ private:
   }
 
   /// A line that keeps the value from doing harm.
-  std::string remedy(const Suspect& suspect, std::optional<std::int64_t> value) const {
+  Message remedy(const Suspect& suspect, std::optional<std::int64_t> value) const {
     if (suspect.kind == Kind::Index) {
       if (value && *value > suspect.greatest)
         return guarded(fmt::format("Y < {}", suspect.greatest + 1));
       const auto before = free_number();
-      return before ? fmt::format("set `Y` first: write `{} Y = 1`", *before) : "";
+      return before ? texts::SetIndexFirst(fmt::format("{} Y = 1", *before)) : Message();
     }
     if (is_written_out(suspect))
-      return "";
+      return {};
     const auto expression = text(suspect.root);
     if (suspect.kind == Kind::Step) {
       const auto before = free_number();
       return before && program_.nodes[suspect.root].kind == NodeKind::Letter
-                 ? fmt::format("write `{} if {} = 0 then {} = 1`", *before, expression, expression)
-                 : "";
+                 ? texts::Write(fmt::format("{0} if {1} = 0 then {1} = 1", *before, expression))
+                 : Message();
     }
     if (suspect.kind == Kind::Divisor)
       return guarded(fmt::format("{} ! 0", expression));
@@ -274,10 +274,10 @@ public:
     cause.seen =
         fmt::format("{} subroutines are open, called on lines {}", core.frames.call_depth, lines);
     if (calls_itself && statement_.kind == Statement::Gosub)
-      cause.help = fmt::format("to repeat, write `{} goto {}`", line_.number,
-                               program_.as<compiler::BranchView>(statement_).target.value);
+      cause.help = texts::ToRepeat(fmt::format(
+          "{} goto {}", line_.number, program_.as<compiler::BranchView>(statement_).target.value));
     else
-      cause.help = "a subroutine ends at its `return`; a `goto` out of it leaves it open";
+      cause.help = texts::GotoOutOfSubroutine();
     return cause;
   }
 
@@ -294,7 +294,7 @@ public:
     if (line == program_.lines.end())
       return cause;
     if (const auto before = Teller(program_, *line, nullptr, names_).free_number())
-      cause.help = fmt::format("end the program before the subroutine: write `{} end`", *before);
+      cause.help = texts::EndBeforeSubroutine(fmt::format("{} end", *before));
     return cause;
   }
 
@@ -309,10 +309,10 @@ public:
       return {};
     const auto& frames = machine_->core().frames;
     if (frames.loop == frames.loops.data())
-      return {.seen = "no loop is open", .help = "a `goto` into a loop skips its `for`"};
+      return {.seen = "no loop is open", .help = texts::GotoIntoLoop()};
     const auto name = name_of(*frames.loop);
     return {.seen = fmt::format("the open loop counts with `{}`", name),
-            .help = fmt::format("write `{} next {}`", line_.number, name)};
+            .help = texts::Write(fmt::format("{} next {}", line_.number, name))};
   }
 
   Cause too_many_loops() const {
@@ -323,7 +323,7 @@ public:
     for (const auto* loop = &frames.loops[1]; loop <= frames.loop; ++loop)
       cause.seen += fmt::format("{}{}", cause.seen.empty() ? "" : ", ", name_of(*loop));
     cause.seen = fmt::format("the loops that count with {} are open", cause.seen);
-    cause.help = "a loop ends at its `next`; a `goto` out of it leaves it open";
+    cause.help = texts::GotoOutOfLoop();
     return cause;
   }
 
@@ -334,9 +334,9 @@ public:
     const auto before = free_number();
     if (count == 0)
       return {.seen = "no `data` line has run yet",
-              .help = before ? fmt::format("write `{} data 1,2,3`", *before) : ""};
+              .help = before ? texts::Write(fmt::format("{} data 1,2,3", *before)) : Message()};
     return {.seen = fmt::format("all {} values in `data` have been read", count),
-            .help = before ? fmt::format("to start again, write `{} rstr`", *before) : ""};
+            .help = before ? texts::ToReadAgain(fmt::format("{} rstr", *before)) : Message()};
   }
 
 private:
@@ -379,18 +379,16 @@ Cause cause_of(const compiler::Program& program, const compiler::Line& line, Bas
 namespace {
 
 /// Takes over what the linter says of the line, where it knows that it stops the program so.
-void add_finding(ProgramError& fault, const Source& source, std::string_view text,
-                 const compiler::Target& target) {
-  const auto checked = compiler::check(text, target);
+void add_finding(ProgramError& fault, const Input& input) {
+  const auto& all = findings(input).front().diagnostics;
   const auto stops_so = [&](const Diagnostic& one) {
     return one.rule->robot_error == spec::code(fault.code) ||
            (one.rule == &compiler::rules::NewerThanTarget && fault.code == BasicError::SyntaxError);
   };
-  const auto found = std::find_if(
-      checked.diagnostics.begin(), checked.diagnostics.end(), [&](const Diagnostic& one) {
-        return stops_so(one) && source.position(one.span.begin).line == fault.place.line;
-      });
-  if (found == checked.diagnostics.end())
+  const auto found = std::find_if(all.begin(), all.end(), [&](const Diagnostic& one) {
+    return stops_so(one) && input.source->position(one.span.begin).line == fault.place.line;
+  });
+  if (found == all.end())
     return;
   fault.finding = found->message;
   fault.help = found->help;
@@ -462,14 +460,14 @@ Cause structured_cause(const structured::Compiled& compiled, const compiler::Pro
     names[robot.names[n].letter] =
         compiled.program.name(compiled.names.symbols[robot.names[n].symbol].name);
   auto cause = cause_of(program, line, code, machine, &names);
-  cause.help = code == BasicError::OutOfData ? "`rstr` starts again with the first value" : "";
+  cause.help = code == BasicError::OutOfData ? texts::RstrReadsAgain() : Message();
   return cause;
 }
 
 } // namespace
 
-ProgramError explain(const Input& input, const compiler::Target& target, int robot_line,
-                     BasicError code, const vm::Machine* machine) {
+ProgramError explain(const Input& input, int robot_line, BasicError code,
+                     const vm::Machine* machine) {
   const auto& program = input.program->parsed;
   ProgramError fault;
   fault.robot_line = static_cast<std::uint32_t>(robot_line);
@@ -489,7 +487,7 @@ ProgramError explain(const Input& input, const compiler::Target& target, int rob
   }
   fault.cause = cause_of(program, *line, code, machine);
   fault.place = input.source->position(program.statements[line->statement].span.begin);
-  add_finding(fault, *input.source, program.text, target);
+  add_finding(fault, input);
   return fault;
 }
 

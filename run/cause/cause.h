@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/message.h"
 #include "compiler/text/program.h"
 #include "spec/basic.h"
 #include "vm/machine/machine.h"
@@ -15,7 +16,7 @@ namespace orb::run {
 struct Cause {
   std::string seen = {};      ///< `heading is 360, 0 to 359 allowed; use X % 360`
   std::string variables = {}; ///< that made it: `X is 360, S is 50`
-  std::string help = {};      ///< the line to write: `write `20 goroll X % 360,S,1``
+  Message help = {};          ///< the line to write: `write `20 goroll X % 360,S,1``
   std::string aside = {};     ///< what not every ball does
 
   // The number that was wrong and what would have been right.

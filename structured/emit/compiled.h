@@ -1,5 +1,6 @@
 #pragma once
 
+#include "compiler/text/image.h"
 #include "structured/emit/letters.h"
 #include "structured/emit/print.h"
 #include "structured/lower/code.h"
@@ -7,7 +8,6 @@
 #include "structured/text/program.h"
 
 #include <algorithm>
-#include <cstddef>
 
 namespace orb::structured {
 
@@ -18,9 +18,10 @@ struct Compiled {
   Names names;
   Code code;
   Letters letters;
-  RobotText robot;             ///< empty where there are errors, or nothing to run
-  std::size_t image_bytes = 0; ///< of the packed image
-  bool runs = false;           ///< whether there is a program to run
+  RobotText robot;         ///< empty where there are errors, or nothing to run
+  compiler::Program lines; ///< these, parsed: for take_lines(), as their text moves with this
+  compiler::Image image;   ///< of these, packed
+  bool runs = false;       ///< whether there is a program to run
 
   /// Whether something keeps it from becoming lines.
   bool has_errors() const {

@@ -4,18 +4,22 @@
 #include "compiler/text/image.h"
 #include "compiler/text/parse.h"
 #include "compiler/text/rules.h"
+#include "compiler/text/texts.h"
 #include "repair/tokens.h"
 #include "spec/limits.h"
 #include "structured/text/blocks.h"
+#include "structured/text/texts.h"
 
 #include <algorithm>
 #include <fmt/format.h>
 #include <map>
+#include <utility>
 
 namespace orb::structured {
 namespace {
 
 namespace robot = compiler::rules;
+namespace robot_texts = compiler::texts;
 
 /// The rules whose findings say something about the source, in words that fit it.
 bool is_told(const Rule* rule) {
@@ -40,12 +44,12 @@ public:
       : compiled_(compiled), target_(target), plain_(compiler::parse(compiled.robot.text)) {}
 
   void run() {
-    const auto image = compiler::build_image(plain_, compiler::Packing::Packed);
-    compiled_.image_bytes = image.bytes.size();
+    compiled_.image = compiler::build_image(plain_, compiler::Packing::Packed);
     for (const auto& found : compiler::lint(plain_, target_))
       if (is_told(found.rule))
         tell(found);
-    check_size(image);
+    check_size(compiled_.image);
+    compiled_.lines = std::move(plain_);
   }
 
 private:
@@ -75,11 +79,11 @@ private:
   /// An index, in words of the array that the source has.
   void tell_of_index(const Statement& statement, Diagnostic& told) const {
     const auto arrays = arrays_of(statement);
-    told.help.clear();
-    told.message = "an index can be out of bounds";
-    if (arrays.size() == 1)
-      told.message += fmt::format(": `{}` has elements 1 to {}",
-                                  compiled_.program.name(arrays[0]->name), arrays[0]->value);
+    told.help = {};
+    told.message =
+        arrays.size() == 1
+            ? texts::IndexCanLeave(compiled_.program.name(arrays[0]->name), arrays[0]->value)
+            : texts::AnIndexCanLeave();
   }
 
   /// Whether a statement was written to several places that use an element: an index that is wrong
@@ -178,16 +182,15 @@ private:
                              Diagnostic& told) const {
     const auto& program = compiled_.program;
     if (found.rule == &robot::BusyLoop)
-      told.message = "the loop runs forever without waiting";
+      told.message = texts::NeverWaits();
     if (found.rule == &robot::IndexRange)
-      told.message = "index out of bounds";
-    if (found.message.starts_with("division by zero"))
-      told.message = "division by zero";
+      told.message = texts::IndexOutOfBounds();
+    if (found.message.is(robot_texts::DividesByZeroHere))
+      told.message = robot_texts::DividesByZero();
     if (is_of_array(found))
       return tell_of_index(statement, told);
     if (found.rule == &robot::WakesElsewhere)
-      told.message =
-          "`restart` starts the program in flash; this one goes to RAM, which sleep clears";
+      told.message = texts::RestartInFlash();
     if (found.rule == &robot::HeadingGrows && statement.kind == Kind::Assign)
       tell_of_heading(found, statement, told);
     if (found.rule == &robot::StaleSensor)
@@ -197,43 +200,47 @@ private:
           const auto* argument = argument_of(edit.span, statement);
           return argument != nullptr && is_digit(program.text_of(argument->span)[0]);
         }))
-      told.help.clear(); // what is exchanged there are names
+      told.help = {}; // what is exchanged there are names
     if (found.rule == &robot::DrivesOn)
       tell_of_stop(found, statement, told);
     if (found.rule == &robot::InvertedWait)
-      told.help = "reverse the comparison";
+      told.help = texts::Reverse();
     if (found.fix && found.fix->edits.size() == 1 && found.rule != &robot::ValueOutOfRange)
       put_fix_into_source(*found.fix, statement, told);
-    if (found.rule == &robot::LoopLeavesRange || found.rule == &robot::MayLeaveRange) {
-      if (told.span == statement.span)
-        drop_expression(told);
-      const auto letters = plain_.text_of(found.span);
-      const auto names = std::string(program.text_of(told.span));
-      const bool single = letters.size() == 1 && names.find_first_of(" +-*/%&|{}") != names.npos;
-      replace(told.message, fmt::format("`{}`", letters), fmt::format("`{}`", names));
-      replace(told.help, fmt::format("`({})", letters), fmt::format("`({})", names));
-      replace(told.help, fmt::format("`({} ", letters), fmt::format("`({} ", names));
-      replace(told.help, fmt::format("`{} ", letters),
-              single ? fmt::format("`({}) ", names) : fmt::format("`{} ", names));
-    }
+    if (found.rule == &robot::LoopLeavesRange || found.rule == &robot::MayLeaveRange)
+      tell_of_value(found, statement, told);
   }
 
-  /// Of a value that is no argument of the source only the number is told.
-  static void drop_expression(Diagnostic& told) {
-    constexpr std::string_view becomes = "` becomes ";
-    constexpr std::string_view here = " here";
-    const auto but = told.message.find(", but `");
-    const auto value = told.message.find(becomes);
-    if (but != std::string::npos && value != std::string::npos && told.message.ends_with(here))
-      told.message = told.message.substr(0, but) + ", found " +
-                     told.message.substr(value + becomes.size(), told.message.size() - value -
-                                                                     becomes.size() - here.size());
+  /// A value, as the source writes it. Of one that is no argument of the source only the number is
+  /// told.
+  void tell_of_value(const Diagnostic& found, const Statement& statement, Diagnostic& told) const {
+    if (told.span == statement.span && found.message.is(robot_texts::ButBecomes))
+      told.message =
+          robot_texts::FoundValue(found.message.fillers()[0], found.message.fillers()[2]);
+    const std::string letters(plain_.text_of(found.span));
+    const std::string names(compiled_.program.text_of(told.span));
+    const auto grouped = fmt::format("({})", names);
+    const bool joins = letters.size() == 1 && !told.help.is(robot_texts::WriteTurned) &&
+                       names.find_first_of(" +-*/%&|{}") != names.npos;
+    rename(told.message, letters, names);
+    rename(told.help, fmt::format("({})", letters), grouped);
+    rename(told.help, letters, joins ? grouped : names);
+  }
+
+  /// Puts `to` into the first hole that holds `from`.
+  static void rename(Message& message, std::string_view from, std::string_view to) {
+    const auto& holes = message.fillers();
+    const auto hole = std::find_if(holes.begin(), holes.end(),
+                                   [&](const Message& one) { return one.words() == from; });
+    if (hole != holes.end())
+      message.refill(static_cast<std::size_t>(hole - holes.begin()),
+                     Message::as_is(std::string(to)));
   }
 
   /// A copy of a sensor: the loop is to read the sensor itself.
   void tell_of_copy(const Diagnostic& found, const Statement& statement, Diagnostic& told) const {
     const auto& program = compiled_.program;
-    told.help = "read it in the loop";
+    told.help = texts::ReadInLoop();
     if (found.notes.empty() || statement.kind != Kind::Assign)
       return;
     const auto items = program.items_of(statement);
@@ -242,9 +249,9 @@ private:
     const auto tokens = repair::tokens_of(test, repair::Language::Structured);
     for (const auto& token : tokens)
       if (token.is_word() && equal_words(token.text, name))
-        told.help =
-            fmt::format("write `{}{}{}` in the loop", test.substr(0, token.at),
-                        program.text_of(items[1].span), test.substr(token.at + name.size()));
+        told.help = robot_texts::WriteInLoop(fmt::format("{}{}{}", test.substr(0, token.at),
+                                                         program.text_of(items[1].span),
+                                                         test.substr(token.at + name.size())));
   }
 
   /// The `delay` between a roll and the last statement, if no block is on the way and no other one
@@ -281,12 +288,14 @@ private:
         });
     const auto& last = *place;
     const bool ends = last.kind == Kind::Robot && last.robot == spec::Statement::End;
-    told.help = waits ? fmt::format("add `{}` {}", line, ends ? "above" : "below")
-                      : fmt::format("add `delay 1s`, then `{}`", line);
-    if (!waits)
+    if (!waits) {
+      told.help = texts::AddTwo("delay 1s", line);
       line = "delay 1s" + end + line;
-    else if (&last != &statement)
-      told.help += fmt::format(" `{}`", program.text_of(last.span));
+    } else if (&last != &statement) {
+      told.help = texts::AddBelowOther(line, program.text_of(last.span));
+    } else {
+      told.help = (ends ? texts::AddAbove : texts::AddBelow)(line);
+    }
     if (last.depth > 0 || last.one_line)
       return;
     const auto begin = last.span.begin;
@@ -309,8 +318,9 @@ private:
     auto text = edit.text;
     for (auto comma = text.find(','); comma != std::string::npos; comma = text.find(',', comma + 1))
       text.insert(comma + 1, text.compare(comma + 1, 1, " ") == 0 ? "" : " ");
-    told.help = fmt::format("write `{}{}{}`", program.text_of({statement.span.begin, there->begin}),
-                            text, program.text_of({there->end, statement.span.end}));
+    told.help =
+        texts::Write(fmt::format("{}{}{}", program.text_of({statement.span.begin, there->begin}),
+                                 text, program.text_of({there->end, statement.span.end})));
     told.fix = Fix{told.help,
                    {{*there, std::move(text)}},
                    told.rule == &robot::MissingGo ? fix.safety : Safety::Unsafe};
@@ -332,11 +342,6 @@ private:
       }
     }
     return found;
-  }
-
-  static void replace(std::string& text, std::string_view from, std::string_view to) {
-    if (const auto at = text.find(from); at != std::string::npos)
-      text.replace(at, from.size(), to);
   }
 
   /// What the robot's line takes away where it sets a letter to the sum at `span`; 0 where it adds.
@@ -364,8 +369,8 @@ private:
     const auto turn = spec::info(spec::Statement::Goroll).parameters()[0].greatest + 1;
     if (const auto step = taken_away(found.span); step > 0)
       sum = fmt::format("{} + {}", name, turn - step % turn);
-    told.message.replace(0, told.message.find(" is "), fmt::format("`{}`", name));
-    told.help = fmt::format("write `{} = ({}) % {}`", name, sum, turn);
+    told.message.refill(0, Message::as_is(std::string(name)));
+    told.help = texts::Write(fmt::format("{} = ({}) % {}", name, sum, turn));
   }
 
   void check_size(const compiler::Image& image) {
@@ -385,18 +390,16 @@ private:
     if (size > room)
       program.diagnostics.push_back(
           finding(robot::ProgramTooLarge, span,
-                  fmt::format("the program is {} bytes, {} more than the {} that the {} area holds",
-                              size, size - room, room, in_ram ? "RAM" : "flash"),
+                  robot_texts::MoreThanAreaHolds(size, size - room, room, in_ram ? "RAM" : "flash"),
                   parts(image)));
     else
-      program.diagnostics.push_back(finding(
-          robot::LargerThanOldRam, span,
-          fmt::format("the program is {} bytes; older robots have room for {}", size, oldest),
-          "give `--ram 4096` if yours has more"));
+      program.diagnostics.push_back(
+          finding(robot::LargerThanOldRam, span, robot_texts::MoreThanOldRobotsHold(size, oldest),
+                  robot_texts::GiveRam(spec::value_of(spec::Limit::RamBytes))));
   }
 
   /// The largest parts of the program, in bytes.
-  std::string parts(const compiler::Image& image) const {
+  Message parts(const compiler::Image& image) const {
     std::map<std::uint32_t, std::uint32_t> bytes;
     for (std::size_t i = 0; i < image.lines.size(); ++i)
       bytes[compiled_.names.routine_of[compiled_.robot.lines[i].statement]] += image.lines[i].size;
@@ -405,18 +408,17 @@ private:
       sorted.push_back({size, routine});
     std::sort(sorted.rbegin(), sorted.rend());
     constexpr std::size_t most = 3;
-    std::string text = "the largest parts:";
+    Message largest;
     for (std::size_t i = 0; i < std::min(most, sorted.size()); ++i) {
       const auto [size, routine] = sorted[i];
       const auto symbol = compiled_.names.routines[routine].symbol;
-      text += fmt::format(
-          "{} {} {} bytes", i == 0 ? "" : ",",
-          symbol == none
-              ? "the main program"
-              : fmt::format("`{}`", compiled_.program.name(compiled_.names.symbols[symbol].name)),
-          size);
+      auto name = symbol == none
+                      ? texts::TheMainProgram()
+                      : texts::Quoted(compiled_.program.name(compiled_.names.symbols[symbol].name));
+      largest = i == 0 ? texts::PartTakes(std::move(name), size)
+                       : texts::PartsTake(std::move(largest), std::move(name), size);
     }
-    return text;
+    return texts::LargestParts(std::move(largest));
   }
 
   Compiled& compiled_;
@@ -432,9 +434,8 @@ void relay_findings(Compiled& compiled, const compiler::Target& target) {
 
 void report_too_large(Compiled& compiled, const compiler::Target& target) {
   const auto room = compiler::area_bytes(target);
-  compiled.program.diagnostics.push_back(
-      finding(robot::ProgramTooLarge, compiled.program.statements.front().span,
-              fmt::format("the program is far larger than the {} bytes of its area", room)));
+  compiled.program.diagnostics.push_back(finding(
+      robot::ProgramTooLarge, compiled.program.statements.front().span, texts::FarLarger(room)));
 }
 
 } // namespace orb::structured

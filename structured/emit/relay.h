@@ -7,7 +7,7 @@ namespace orb::structured {
 
 /// Looks at the robot's lines with the linter of plain programs and says what it finds of the
 /// source: values that are wrong for certain, loops that never wait, a program that does not fit.
-/// Sets the size of the packed image.
+/// Keeps the lines that it has parsed, and their packed image.
 void relay_findings(Compiled& compiled, const compiler::Target& target);
 
 /// Says that a program is far too large for any robot.

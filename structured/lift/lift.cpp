@@ -10,9 +10,9 @@
 #include "structured/optimise/values.h"
 #include "structured/text/read.h"
 #include "structured/text/rules.h"
+#include "structured/text/texts.h"
 
 #include <algorithm>
-#include <fmt/format.h>
 
 namespace orb::structured {
 namespace {
@@ -121,9 +121,8 @@ void report_left_out(const compiler::Program& program, const lifting::Ways& ways
   for (const auto& step : ways.steps)
     if (step.begins_line && !step.reached) {
       const auto& line = program.lines[step.line];
-      findings.push_back(
-          finding(compiler::rules::UnreachableLine, line.number_span,
-                  fmt::format("line {} is never reached; it is left out", line.number)));
+      findings.push_back(finding(compiler::rules::UnreachableLine, line.number_span,
+                                 texts::NeverReached(line.number)));
     }
 }
 
@@ -136,9 +135,8 @@ void report_refused(const compiler::Program& program, const LiftedText& lifted,
     if (keeps_from_building(found)) {
       const auto nth = lifting::not_blank(lifted.text, found.span.begin);
       const auto line = nth < lifted.lines.size() ? lifted.lines[nth] : 0;
-      findings.push_back(lifting::obstacle(
-          program.lines[line].span,
-          fmt::format("in a structured program, the line would have an error: {}", found.message)));
+      findings.push_back(
+          lifting::obstacle(program.lines[line].span, texts::LineWouldErr(found.message)));
       return;
     }
 }
@@ -154,7 +152,7 @@ Lifted lift(const compiler::Checked& checked) {
     return lifted;
   auto ways = lifting::read_ways(program);
   if (ways.steps.empty())
-    ways.obstacle = lifting::obstacle({}, "the program has no statements");
+    ways.obstacle = lifting::obstacle({}, texts::ProgramEmpty());
   if (ways.obstacle) {
     lifted.findings.push_back(*ways.obstacle);
     return lifted;

@@ -2,6 +2,7 @@
 
 #include "spec/limits.h"
 #include "structured/text/rules.h"
+#include "structured/text/texts.h"
 
 #include <algorithm>
 #include <array>
@@ -125,8 +126,7 @@ private:
     ways_.steps[state.step].reached = true;
     in_main_[state.step] = in_main_[state.step] || state.call_depth == 0;
     if (seen_.size() > most_states)
-      stop(state, "the jumps mix loops and calls in too many ways to follow",
-           "let loops run to their `next` and subroutines to their `return`");
+      stop(state, texts::TooManyWays(), texts::LetRun());
   }
 
   // ---- what structured programs cannot say
@@ -134,8 +134,7 @@ private:
   void look_at(const State& state) {
     const auto& statement = statement_of(ways_.steps[state.step]);
     if (statement.kind == spec::Statement::Tron)
-      stop(state, "`tron` prints line numbers, which a structured program does not have",
-           "take it out");
+      stop(state, texts::TronNumbers(), texts::TakeOut());
     else if (statement.kind == spec::Statement::For)
       look_at_loop(state, program_.as<compiler::ForView>(statement));
     else if (statement.kind == spec::Statement::Sleep)
@@ -146,8 +145,7 @@ private:
 
   void look_at_loop(const State& state, const compiler::ForView& loop) {
     if (loop.variable.kind == compiler::ItemKind::Indexed)
-      return stop(state, "a structured loop counts with a variable, not with `Z`",
-                  "count with a letter and set `Z` in the loop");
+      return stop(state, texts::CountsWithZ(), texts::CountWithLetter());
     if (loop.step == nullptr)
       return;
     const auto& step = program_.nodes[loop.step->value];
@@ -155,8 +153,7 @@ private:
                        (step.kind == compiler::NodeKind::Negate &&
                         program_.nodes[loop.step->value - 1].kind == compiler::NodeKind::Number);
     if (!known)
-      stop(state, "the step of a structured loop must be a literal number, not an expression",
-           "write the number after `step`");
+      stop(state, texts::StepComputed(), texts::WriteStep());
   }
 
   void look_at_sleep(const State& state, const compiler::SleepView& sleep) {
@@ -165,8 +162,7 @@ private:
     const bool known = line.kind == compiler::NodeKind::Number &&
                        (line.value == 0 || static_cast<std::uint32_t>(line.value) == first);
     if (!known)
-      stop(state, "a structured program wakes up at its first line, or not at all",
-           fmt::format("give `sleep` line 0 or line {}", first));
+      stop(state, texts::WakesUpFirst(), texts::GiveSleep(first));
   }
 
   void look_at_data(const State& state, const StatementNode& statement) {
@@ -177,12 +173,11 @@ private:
             kind == compiler::NodeKind::Number || kind == compiler::NodeKind::Group ||
             kind == compiler::NodeKind::Negate || kind == compiler::NodeKind::Binary;
         if (!constant)
-          return stop(state, "`data` in a structured program takes numbers, not computed values",
-                      "write the numbers");
+          return stop(state, texts::DataComputed(), texts::WriteNumbers());
       }
   }
 
-  void stop(const State& state, std::string message, std::string help) {
+  void stop(const State& state, Message message, Message help) {
     if (!ways_.obstacle)
       ways_.obstacle =
           obstacle(statement_of(ways_.steps[state.step]).span, std::move(message), std::move(help));
@@ -262,13 +257,7 @@ private:
       return stop_at_next(state);
     if (step.loop != none && step.loop != loop) {
       const auto [first, second] = std::minmax(step.loop, loop);
-      return stop(
-          state,
-          fmt::format(
-              "this `next` sometimes belongs to the loop on line {} and sometimes to the one on "
-              "line {}",
-              number_of(first), number_of(second)),
-          "give each loop its own `next`");
+      return stop(state, texts::TwoLoops(number_of(first), number_of(second)), texts::OwnNext());
     }
     step.loop = loop;
     go(state, ways_.steps[loop].next);
@@ -282,9 +271,7 @@ private:
     return program_.lines[ways_.steps[step].line].number;
   }
 
-  static std::string error_text(BasicError error) {
-    return fmt::format("the robot then stops with `{}`", spec::info(error).text);
-  }
+  static Message stops_with(BasicError error) { return texts::RobotStops(spec::info(error).text); }
 
   bool is(std::uint32_t step, spec::Statement kind) const {
     return statement_of(ways_.steps[step]).kind == kind;
@@ -327,20 +314,17 @@ private:
     return last == none ? std::nullopt : last_crossing(loop, last, false);
   }
 
-  void blame(std::uint32_t step, std::string message, std::string help) {
+  void blame(std::uint32_t step, Message message, Message help) {
     State state;
     state.step = step;
     stop(state, std::move(message), std::move(help));
   }
-  void blame_way_out(const State& state, std::uint32_t from, std::string_view then,
-                     BasicError error) {
+  void blame_way_out(const State& state, std::uint32_t from, Message then, BasicError error) {
     const auto loop = state.loops[state.loop_depth - 1];
-    blame(
-        from,
-        fmt::format("this jump leaves the loop on line {}, which stays open; at {} on line {}, {}",
-                    number_of(loop), then, number_of(state.step), error_text(error)),
-        fmt::format("set `{}` to its last value and jump to its `next` on line {}",
-                    spec::letter_name(variable_of(loop)), number_of(next_below(loop))));
+    blame(from,
+          texts::LeavesLoop(number_of(loop), std::move(then), number_of(state.step),
+                            stops_with(error)),
+          texts::LastValue(spec::letter_name(variable_of(loop)), number_of(next_below(loop))));
   }
 
   void stop_at_next(const State& state) {
@@ -353,32 +337,24 @@ private:
     const bool is_open = std::find(open, open + state.loop_depth, loop) != open + state.loop_depth;
     if (is_open) {
       if (const auto out = way_out_of_loop(state))
-        return blame_way_out(state, out->from, fmt::format("`next {}`", name),
-                             BasicError::NextWithoutFor);
+        return blame_way_out(state, out->from, texts::TheNext(name), BasicError::NextWithoutFor);
     } else if (is(loop, spec::Statement::For)) {
       if (const auto in = last_crossing(loop, state.step, true); in && in->to != loop)
         return blame(in->from,
-                     fmt::format("this jump enters the loop on line {}, skipping its `for`; at "
-                                 "`next {}` on line {}, {}",
-                                 number_of(loop), name, number_of(state.step),
-                                 error_text(BasicError::NextWithoutFor)),
-                     fmt::format("jump to line {}, where the loop begins", number_of(loop)));
+                     texts::EntersLoop(number_of(loop), name, number_of(state.step),
+                                       stops_with(BasicError::NextWithoutFor)),
+                     texts::JumpToLoop(number_of(loop)));
     }
-    stop(state,
-         fmt::format("this `next` can be reached when the innermost loop does not count with `{}`; "
-                     "{}",
-                     name, error_text(BasicError::NextWithoutFor)),
-         "do not jump into or out of loops");
+    stop(state, texts::NextOfOther(name, stops_with(BasicError::NextWithoutFor)),
+         texts::NoJumpsAcross());
   }
 
   void stop_at_loop(const State& state) {
     if (const auto out = way_out_of_loop(state))
-      return blame_way_out(state, out->from, fmt::format("the {}th open loop", most_loops + 1),
+      return blame_way_out(state, out->from, texts::NthLoop(most_loops + 1),
                            BasicError::ForDepthExceeded);
-    stop(state,
-         fmt::format("this can be the {}th loop open at once; {}", most_loops + 1,
-                     error_text(BasicError::ForDepthExceeded)),
-         "let each loop run to its `next`; do not leave it with `goto`");
+    stop(state, texts::LoopsTooDeep(most_loops + 1, stops_with(BasicError::ForDepthExceeded)),
+         texts::LetLoopRun());
   }
 
   /// The steps that some `gosub` calls.
@@ -397,38 +373,27 @@ private:
     const auto in =
         above == called.begin() ? std::nullopt : last_crossing(*std::prev(above), state.step, true);
     if (!in)
-      return stop(state,
-                  fmt::format("this `return` can be reached without a `gosub`; {}",
-                              error_text(BasicError::ReturnWithoutGosub)),
-                  "put `end` above the subroutine");
+      return stop(state, texts::NoGosub(stops_with(BasicError::ReturnWithoutGosub)),
+                  texts::EndAbove());
     const auto sub = number_of(*std::prev(above));
     const bool jumps = !ways_.steps[in->from].targets.empty();
-    blame(in->from,
-          fmt::format("{} into the subroutine on line {} without a `gosub`; at its `return` on "
-                      "line {} {}",
-                      jumps ? "this jump goes" : "the program runs on from here", sub,
-                      number_of(state.step), error_text(BasicError::ReturnWithoutGosub)),
-          jumps ? fmt::format("write `gosub {}`", sub)
-                : fmt::format("put a line with `end` above line {}", sub));
+    const auto& into = jumps ? texts::JumpsIntoSub : texts::RunsIntoSub;
+    blame(in->from, into(sub, number_of(state.step), stops_with(BasicError::ReturnWithoutGosub)),
+          jumps ? texts::Write(fmt::format("gosub {}", sub)) : texts::EndAboveLine(sub));
   }
 
   void stop_at_call(const State& state) {
-    const auto fifth = fmt::format("{}th", most_calls + 1);
     // The last jump from where only calls lead to where the main program runs.
     for (auto at = here_; states_[at].from != none; at = states_[at].from) {
       const auto from = states_[states_[at].from].state.step;
       if (is(from, spec::Statement::Goto) && !in_main_[from] && in_main_[states_[at].state.step])
         return blame(from,
-                     fmt::format("this jump leaves a subroutine, whose call stays open; at the {} "
-                                 "open call on line {}, {}",
-                                 fifth, number_of(state.step),
-                                 error_text(BasicError::GosubDepthExceeded)),
-                     "let the subroutine run to its `return`");
+                     texts::LeavesSub(most_calls + 1, number_of(state.step),
+                                      stops_with(BasicError::GosubDepthExceeded)),
+                     texts::LetSubRun());
     }
-    stop(state,
-         fmt::format("this can be the {} call open at once; {}", fifth,
-                     error_text(BasicError::GosubDepthExceeded)),
-         "let each subroutine run to its `return`; do not leave it with `goto`");
+    stop(state, texts::SubsTooDeep(most_calls + 1, stops_with(BasicError::GosubDepthExceeded)),
+         texts::LetSubsRun());
   }
 
   const compiler::Program& program_;
@@ -447,7 +412,7 @@ Ways read_ways(const compiler::Program& program) {
   return Reader(program).read();
 }
 
-Diagnostic obstacle(Span span, std::string message, std::string help) {
+Diagnostic obstacle(Span span, Message message, Message help) {
   return finding(rules::NotLiftable, span, std::move(message), std::move(help));
 }
 

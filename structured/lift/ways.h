@@ -48,6 +48,6 @@ inline const compiler::StatementNode& statement_of(const compiler::Program& prog
 Ways read_ways(const compiler::Program& program);
 
 /// Why a program cannot be lifted.
-Diagnostic obstacle(Span span, std::string message, std::string help = {});
+Diagnostic obstacle(Span span, Message message, Message help = {});
 
 } // namespace orb::structured::lifting

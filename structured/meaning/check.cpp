@@ -28,7 +28,7 @@ void Checker::run() {
     check_products();
 }
 
-Diagnostic& Checker::report(const Rule& rule, Span span, std::string message, std::string help) {
+Diagnostic& Checker::report(const Rule& rule, Span span, Message message, Message help) {
   return program_.diagnostics.emplace_back(
       finding(rule, span, std::move(message), std::move(help)));
 }
@@ -69,20 +69,20 @@ bool Checker::in_broken_routine() const {
   });
 }
 
-void Checker::misplaced(const Statement& statement, std::string message, std::string help) {
+void Checker::misplaced(const Statement& statement, Message message, Message help) {
   report(rules::MisplacedStatement, statement.word.size() > 0 ? statement.word : statement.span,
          std::move(message), std::move(help));
 }
 
-void Checker::stands_outside(const Statement& statement, std::string_view of, std::string help) {
+void Checker::stands_outside(const Statement& statement, const Row<Hole::Code>& outside,
+                             Message help) {
   auto words = statement.word;
   std::erase_if(program_.diagnostics, [&](const Diagnostic& one) {
     const bool same = one.rule == &rules::ForeignWord && one.span.begin == words.begin;
     words = same ? one.span : words;
     return same;
   });
-  report(rules::MisplacedStatement, words,
-         fmt::format("`{}` outside {}", program_.text_of(words), of), std::move(help));
+  report(rules::MisplacedStatement, words, outside(program_.text_of(words)), std::move(help));
 }
 
 std::uint32_t Checker::none_yet(std::uint32_t i) const {
@@ -126,12 +126,12 @@ void Checker::check_unused() {
     if (symbol.kind == SymbolKind::Sub || symbol.kind == SymbolKind::Function)
       check_uncalled(symbol);
     else if (symbol.kind == SymbolKind::Variable)
-      report_unused(symbol, "is set but never read");
+      report_unused(symbol, texts::SetNeverRead);
     else if (symbol.kind == SymbolKind::Local)
-      report_unused(symbol, "is never read");
+      report_unused(symbol, texts::NeverRead);
     else if (symbol.kind == SymbolKind::Constant && runs && in_main_file(symbol.span))
       report_unused(symbol,
-                    "is never used"); // those of an included file are for all that include it
+                    texts::NeverUsed); // those of an included file are for all that include it
   }
 }
 
@@ -143,12 +143,11 @@ void Checker::check_uncalled(const Symbol& symbol) {
   constexpr std::string_view shake = "shake";
   const bool shakes =
       name.size() > shake.size() && equal_words(name.substr(name.size() - shake.size()), shake);
-  report(rules::UnusedName, symbol.span, fmt::format("`{}` is never called", name),
-         fmt::format("there are no events; ask {} in the loop",
-                     shakes ? "`dshake`" : "`speed` or `accelone`"));
+  report(rules::UnusedName, symbol.span, texts::NeverCalled(name),
+         shakes ? texts::AskInLoop("dshake") : texts::AskEitherInLoop("speed", "accelone"));
 }
 
-void Checker::report_unused(const Symbol& symbol, std::string_view how) {
+void Checker::report_unused(const Symbol& symbol, const Row<Hole::Code>& unused) {
   const auto name = program_.name(symbol.name);
   std::vector<std::string_view> others; // variables that are read
   for (const auto& other : names_.symbols)
@@ -158,13 +157,13 @@ void Checker::report_unused(const Symbol& symbol, std::string_view how) {
   const auto meant = symbol.kind == SymbolKind::Variable && name.size() >= clear
                          ? closest(name, others)
                          : std::nullopt;
-  std::string help;
+  Message help;
   if (meant) {
     const auto line = at(symbol.statement).span;
-    help = fmt::format("write `{}{}{}`", program_.text_of({line.begin, symbol.span.begin}), *meant,
-                       program_.text_of({symbol.span.end, line.end}));
+    help = texts::Write(fmt::format("{}{}{}", program_.text_of({line.begin, symbol.span.begin}),
+                                    *meant, program_.text_of({symbol.span.end, line.end})));
   }
-  report(rules::UnusedName, symbol.span, fmt::format("`{}` {}", name, how), std::move(help));
+  report(rules::UnusedName, symbol.span, unused(name), std::move(help));
 }
 
 bool Checker::in_main_file(Span span) const {

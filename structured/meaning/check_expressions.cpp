@@ -86,16 +86,15 @@ void Checker::check_expressions(const Statement& statement) {
 void Checker::report_condition(const Statement& statement, std::uint32_t node) {
   if (names_unknown(node))
     return;
-  auto& d = report(rules::ConditionAsValue, program_.nodes[node].span,
-                   "a condition cannot be used as a number");
+  auto& d = report(rules::ConditionAsValue, program_.nodes[node].span, texts::ConditionNoNumber());
   if (const auto word = word_between_numbers(node))
-    d.fix = Fix{"combine bits",
+    d.fix = Fix{texts::CombineBits(),
                 {{*word, program_.nodes[node].kind == NodeKind::And ? "&" : "|"}},
                 Safety::Unsafe};
   else if (const auto line = with_if(statement, node))
-    d.fix = Fix{"use `if`", {{statement.span, *line}}, Safety::Unsafe};
+    d.fix = Fix{texts::UseIf(), {{statement.span, *line}}, Safety::Unsafe};
   else
-    d.help = "write `if … then` and set the value there";
+    d.help = texts::SetThere("if … then");
 }
 
 std::optional<Span> Checker::word_between_numbers(std::uint32_t node) const {
@@ -167,8 +166,7 @@ void Checker::report_bitwise(std::uint32_t n) {
   const auto sign = std::string_view(program_.text).substr(0, right).find_last_of(both ? '&' : '|');
   const auto at = static_cast<std::uint32_t>(sign);
   auto found = habit(program_, {at, at + 1}, both ? "and" : "or");
-  found.message =
-      fmt::format("`{}` combines the bits of numbers, not conditions", both ? '&' : '|');
+  found.message = texts::CombinesBits(both ? '&' : '|');
   program_.diagnostics.push_back(std::move(found));
 }
 
@@ -273,9 +271,10 @@ void Checker::check_quotient(std::uint32_t n) {
       left.kind != NodeKind::Number || right.kind != NodeKind::Number || left.value == 0 ||
       left.value >= right.value)
     return;
-  auto& d = report(compiler::rules::ZeroQuotient, nodes[n].span,
-                   fmt::format("`{} / {}` is 0: values are integers", left.value, right.value),
-                   fmt::format("multiply first: `x * {} / {}`", left.value, right.value));
+  auto& d =
+      report(compiler::rules::ZeroQuotient, nodes[n].span,
+             compiler::texts::QuotientIs(fmt::format("{} / {}", left.value, right.value), 0),
+             compiler::texts::MultiplyFirst(fmt::format("x * {} / {}", left.value, right.value)));
   const auto product = n + 1; // `x * (1 / 2)`
   if (product >= nodes.size() || nodes[product].kind != NodeKind::Binary ||
       static_cast<spec::Operator>(nodes[product].what) != spec::Operator::Multiply ||
@@ -284,7 +283,7 @@ void Checker::check_quotient(std::uint32_t n) {
   const auto factor = program_.text_of(nodes[program_.before(n)].span);
   const auto line = left.value == 1 ? fmt::format("{} / {}", factor, right.value)
                                     : fmt::format("{} * {} / {}", factor, left.value, right.value);
-  d.help = fmt::format("write `{}`", line);
+  d.help = texts::Write(line);
   d.fix = Fix{d.help, {{nodes[product].span, line}}, Safety::Unsafe};
 }
 
@@ -305,10 +304,8 @@ void Checker::check_overflow(std::uint32_t n) {
   const auto wrapped = static_cast<std::int32_t>(static_cast<std::uint32_t>(exact));
   if (exact != wrapped)
     report(rules::ConstantOverflow, node.span,
-           fmt::format("`{}` is {}, which wraps around to {}", program_.text_of(node.span), exact,
-                       wrapped),
-           fmt::format("numbers go from -2147483648 to {}",
-                       spec::value_of(spec::Limit::GreatestInteger)));
+           texts::WrapsAround(program_.text_of(node.span), exact, wrapped),
+           texts::NumbersGo(spec::value_of(spec::Limit::GreatestInteger)));
 }
 
 void Checker::check_sides(std::uint32_t root) {
@@ -329,15 +326,12 @@ void Checker::check_side(std::uint32_t side, std::uint32_t other) {
   if (nodes[side].kind != NodeKind::Number)
     return;
   const auto number = program_.text_of(nodes[side].span);
-  std::string help;
-  if (nodes[other].kind == NodeKind::Relation)
-    help = fmt::format("write `{}{}`",
-                       program_.text_of({nodes[other].span.begin, nodes[other - 1].span.begin}),
-                       number);
+  const Span asked{nodes[other].span.begin, nodes[other - 1].span.begin};
   report(rules::NumberAsCondition, nodes[side].span,
-         fmt::format("`{}` alone is a condition that is {} true", number,
-                     nodes[side].value == 0 ? "never" : "always"),
-         std::move(help));
+         nodes[side].value == 0 ? texts::NeverTrue(number) : texts::AlwaysTrue(number),
+         nodes[other].kind == NodeKind::Relation
+             ? texts::Write(fmt::format("{}{}", program_.text_of(asked), number))
+             : Message());
 }
 
 void Checker::check_number(std::uint32_t n, bool is_root) {
@@ -346,8 +340,8 @@ void Checker::check_number(std::uint32_t n, bool is_root) {
     return;
   if (is_root || program_.nodes[n + 1].kind != NodeKind::Negate || program_.nodes[n + 1].first != n)
     report(rules::BadNumber, node.span,
-           fmt::format("`{}` is above {}", program_.text_of(node.span),
-                       spec::value_of(spec::Limit::GreatestInteger)));
+           texts::AboveGreatest(program_.text_of(node.span),
+                                spec::value_of(spec::Limit::GreatestInteger)));
 }
 
 void Checker::check_index(std::uint32_t n) {
@@ -358,16 +352,15 @@ void Checker::check_index(std::uint32_t n) {
   const auto value = evaluate(program_, names_, n - 1);
   if (value && symbol.value > 0 && (value->value < 1 || value->value > symbol.value))
     report(rules::ArrayIndex, program_.nodes[n - 1].span,
-           fmt::format("`{}` has elements 1 to {}, found {}", program_.name(symbol.name),
-                       symbol.value, value->value));
+           texts::HasElements(program_.name(symbol.name), 1, symbol.value, value->value));
 }
 
 void Checker::check_version(Span span, std::string_view word, spec::BasicVersion since,
                             bool old_name) {
   if (since > target_.version && !old_name)
     report(compiler::rules::NewerThanTarget, span,
-           fmt::format("`{}` needs orbBasic {}; the target is {}", word, spec::info(since).text,
-                       spec::info(target_.version).text));
+           compiler::texts::NeedsVersion(word, spec::info(since).text,
+                                         spec::info(target_.version).text));
 }
 
 Diagnostic* Checker::check_range(const Item& part, std::string_view word,
@@ -377,7 +370,8 @@ Diagnostic* Checker::check_range(const Item& part, std::string_view word,
     return nullptr;
   auto& d =
       report(compiler::rules::ValueOutOfRange, part.span,
-             fmt::format("{}, found {}", compiler::allowed_values(word, parameter), value->value));
+             compiler::texts::FoundValue(compiler::allowed_values(word, parameter),
+                                         compiler::shown(compiler::Range::only(value->value))));
   const auto text = program_.text_of(part.span);
   const bool negative = // a number, no sum
       text.starts_with('-') && text.find_first_of(" \t+-*/%(", 1) == std::string_view::npos;
@@ -397,15 +391,17 @@ Diagnostic* Checker::check_range(const Item& part, std::string_view word,
                      (kind == NodeKind::Number || kind == NodeKind::Duration);
   if (waits && parts <= most_lines) {
     const auto each = value->value / static_cast<std::int32_t>(parts);
-    d.help = fmt::format("write `{} {}` on {} lines", word,
-                         kind == NodeKind::Number ? std::to_string(each) : time_text(each), parts);
+    d.help = texts::WriteOnLines(
+        fmt::format("{} {}", word,
+                    kind == NodeKind::Number ? std::to_string(each) : time_text(each)),
+        parts);
     return &d;
   }
   if (meant.empty() && text.ends_with('s') && value->value / second <= parameter.greatest &&
       text == fmt::format("{}s", value->value / second))
     meant = fmt::format("{}ms", value->value / second);
   if (!meant.empty())
-    d.fix = Fix{fmt::format("write {}", meant), {{part.span, meant}}, Safety::Unsafe};
+    d.fix = Fix{texts::Write(meant), {{part.span, meant}}, Safety::Unsafe};
   return &d;
 }
 
@@ -414,8 +410,7 @@ bool Checker::require_constant(const Item& part) {
     return true;
   if (program_.nodes[part.value].is_condition() || names_unknown(part.value))
     return false; // said already
-  report(rules::NotConstant, part.span, "not a constant expression",
-         "use literals and constants declared above");
+  report(rules::NotConstant, part.span, texts::NotConstant(), texts::UseLiterals());
   return false;
 }
 

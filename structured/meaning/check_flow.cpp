@@ -21,7 +21,7 @@ void Checker::check_jumps() {
       if (at(labels[m]).name == at(labels[n]).name &&
           names_.routine_of[labels[m]] == names_.routine_of[labels[n]]) {
         report(rules::NameTaken, at(labels[n]).name_span,
-               fmt::format("duplicate label `{}`", program_.text_of(at(labels[n]).name_span)));
+               texts::DuplicateLabel(program_.text_of(at(labels[n]).name_span)));
         break;
       }
   for (const auto i : program_.order)
@@ -36,8 +36,7 @@ void Checker::check_label(std::uint32_t label) {
   const auto word = program_.text_of(at(label).name_span);
   const auto meant = repair::word_at(repair::tokens_of(word, repair::Language::Structured), 0);
   if (meant == "else" || meant == "forever")
-    report(rules::ForeignWord, at(label).name_span,
-           fmt::format("`{}` is not part of this language", word));
+    report(rules::ForeignWord, at(label).name_span, texts::NotOfThisLanguage(word));
 }
 
 void Checker::check_goto(std::uint32_t i, const std::vector<std::uint32_t>& labels) {
@@ -50,17 +49,16 @@ void Checker::check_goto(std::uint32_t i, const std::vector<std::uint32_t>& labe
     return;
   }
   if (!encloses(*label, i))
-    report(rules::GotoTarget, jump.name_span,
-           fmt::format("the label `{}` is inside a block", program_.text_of(jump.name_span)),
-           "`goto` may leave blocks but not enter one");
+    report(rules::GotoTarget, jump.name_span, texts::LabelInBlock(program_.text_of(jump.name_span)),
+           texts::NotIntoBlocks());
   else
-    report(rules::Unstructured, jump.span, "the program uses `goto`");
+    report(rules::Unstructured, jump.span, texts::ProgramUses("goto"));
 }
 
 void Checker::report_unknown_label(std::uint32_t i, const std::vector<std::uint32_t>& labels) {
   const auto& jump = at(i);
   const auto word = std::string(program_.text_of(jump.name_span));
-  auto& d = report(rules::GotoTarget, jump.name_span, fmt::format("unknown label `{}:`", word));
+  auto& d = report(rules::GotoTarget, jump.name_span, texts::UnknownLabel(word));
   const auto sub =
       std::find_if(names_.symbols.begin(), names_.symbols.end(), [&](const Symbol& one) {
         return one.kind == SymbolKind::Sub && equal_words(program_.name(one.name), word);
@@ -68,9 +66,9 @@ void Checker::report_unknown_label(std::uint32_t i, const std::vector<std::uint3
   if (sub != names_.symbols.end()) {
     const auto call =
         fmt::format("{}{}", word, names_.routines[sub->routine].parameters > 0 ? "(…)" : "");
-    d.help = fmt::format("write `{}`; it is a sub", call);
+    d.help = texts::ItIsASub(call);
     if (call == word)
-      d.fix = Fix{"call the sub", {{jump.span, word}}, Safety::Unsafe};
+      d.fix = Fix{texts::CallSub(), {{jump.span, word}}, Safety::Unsafe};
     return;
   }
   std::vector<std::string_view> here;
@@ -80,8 +78,8 @@ void Checker::report_unknown_label(std::uint32_t i, const std::vector<std::uint3
   const auto meant = closest(word, here);
   if (!meant)
     return;
-  d.help = fmt::format("did you mean `{}`?", *meant);
-  d.fix = Fix{fmt::format("write `{}`", *meant), {{jump.name_span, *meant}}, Safety::Unsafe};
+  d.help = texts::DidYouMean(*meant);
+  d.fix = Fix{texts::Write(*meant), {{jump.name_span, *meant}}, Safety::Unsafe};
 }
 
 bool Checker::encloses(std::uint32_t label, std::uint32_t other) const {
@@ -138,16 +136,14 @@ void Checker::check_recursion() {
 
 void Checker::report_cycle(const std::vector<std::pair<std::uint32_t, std::size_t>>& path,
                            std::uint32_t callee) {
-  std::string circle;
-  bool inside = false;
-  for (const auto& [routine, next] : path) {
-    inside = inside || routine == callee;
-    if (inside)
-      circle += fmt::format("`{}` calls ", name_of(routine));
-  }
+  const auto first = std::find_if(path.begin(), path.end(),
+                                  [&](const auto& open) { return open.first == callee; });
+  auto circle = texts::Quoted(name_of(callee));
+  for (auto open = first + 1; open != path.end(); ++open)
+    circle = texts::Calls(std::move(circle), name_of(open->first));
   const auto& symbol = names_.symbols[names_.routines[callee].symbol];
-  report(rules::Recursion, symbol.span, fmt::format("{}`{}`", circle, name_of(callee)),
-         "use a loop");
+  report(rules::Recursion, symbol.span, texts::Calls(std::move(circle), name_of(callee)),
+         texts::UseLoop());
 }
 
 void Checker::check_loops() {
@@ -203,13 +199,12 @@ void Checker::check_called_loops() {
           return program_.name(names_.symbols[names_.routines[one].symbol].name);
         };
         const auto name = program_.name(names_.symbols[counter].name);
-        auto& d = report(
-            compiler::rules::LoopVariableSet, span,
-            fmt::format("`{}` sets `{}`, with which this loop counts", called(routine), name),
-            fmt::format("write `local {}` in `{}`", name,
-                        called(names_.routine_of[inner->second])));
-        d.notes.push_back({at(i).span, "the loop"});
-        d.notes.push_back({at(inner->second).span, "the other loop"});
+        auto& d = report(compiler::rules::LoopVariableSet, span,
+                         texts::SetsCounter(called(routine), name),
+                         texts::WriteIn(fmt::format("local {}", name),
+                                        called(names_.routine_of[inner->second])));
+        d.notes.push_back({at(i).span, compiler::texts::TheLoop()});
+        d.notes.push_back({at(inner->second).span, texts::TheOtherLoop()});
       });
   }
 }
@@ -240,11 +235,11 @@ void Checker::check_inverted(std::uint32_t i) {
   for (auto n = i + 1; n < at(i).next; ++n)
     if (at(n).kind != Kind::Robot || at(n).robot != spec::Statement::Delay)
       return;
-  auto& d = report(
-      compiler::rules::InvertedWait, root.span,
-      fmt::format("`{}` is {} for one reading only: this does not wait", row.word, row.greatest),
-      fmt::format("write `while not {}`", row.word));
-  d.fix = Fix{d.help, {{root.span, fmt::format("not {}", row.word)}}, Safety::Unsafe};
+  auto turned = fmt::format("not {}", row.word);
+  auto& d = report(compiler::rules::InvertedWait, root.span,
+                   compiler::texts::ForOneReadingOnly(row.word, row.greatest),
+                   texts::Write("while " + turned));
+  d.fix = Fix{d.help, {{root.span, std::move(turned)}}, Safety::Unsafe};
 }
 
 void Checker::check_endless(std::uint32_t i) {
@@ -258,9 +253,8 @@ void Checker::check_endless(std::uint32_t i) {
     loops -= at(n).opener != none && is_loop(at(at(n).opener).kind) ? 1 : 0;
   }
   if (const auto* const after = never_reached(i, end + 1))
-    report(compiler::rules::UnreachableLine, after->span,
-           "unreachable: nothing leaves the loop above",
-           "leave the loop with `exit`, as in `if speed = 0 then exit`");
+    report(compiler::rules::UnreachableLine, after->span, texts::NothingLeaves(),
+           texts::LeaveWithExit());
 }
 
 void Checker::check_left(std::uint32_t i) {
@@ -278,17 +272,16 @@ void Checker::check_left(std::uint32_t i) {
   const auto seconds = sleeps && size(statement) == 1 ? value_of(item(statement, 0)) : std::nullopt;
   constexpr std::int32_t second = 1000; // ms; more than a `delay` takes were meant as ms already
   const auto longest = spec::info(spec::Statement::Delay).parameters()[0].greatest / second;
-  auto& d = report(compiler::rules::UnreachableLine, after->span,
-                   fmt::format("unreachable after `{}`", word),
-                   seconds  ? fmt::format("for a pause, write `delay {}{}`", seconds->value,
-                                         seconds->value > longest ? "" : "s")
-                   : sleeps ? fmt::format("for a pause, write `delay {}`",
-                                          program_.text_of(item(statement, 0).span))
-                   : ends   ? fmt::format("remove the `{}` above", word)
-                            : "remove the line");
-  d.notes.push_back({statement.span, sleeps ? "the robot falls asleep here, and the program ends"
-                                     : ends ? "the program ends here"
-                                            : "execution never gets past this"});
+  auto& d = report(
+      compiler::rules::UnreachableLine, after->span, texts::UnreachableAfter(word),
+      seconds ? texts::ForPause(
+                    fmt::format("delay {}{}", seconds->value, seconds->value > longest ? "" : "s"))
+      : sleeps ? texts::ForPause(fmt::format("delay {}", program_.text_of(item(statement, 0).span)))
+      : ends   ? texts::RemoveAbove(word)
+               : texts::RemoveLine());
+  d.notes.push_back({statement.span, sleeps ? texts::FallsAsleep()
+                                     : ends ? texts::EndsHere()
+                                            : texts::NeverPast()});
 }
 
 const Statement* Checker::never_reached(std::uint32_t i, std::uint32_t after) const {
@@ -334,9 +327,9 @@ void Checker::check_unchanged(std::uint32_t i, std::uint32_t condition) {
   const bool counts = root.kind == NodeKind::Relation && (greater || less) &&
                       program_.nodes[root.first].kind == NodeKind::Name;
   const bool down = greater == (at(i).kind == Kind::While);
-  report(compiler::rules::EndlessLoop, root.span,
-         fmt::format("the loop never ends: nothing in it changes `{}`", name),
-         counts ? fmt::format("add `{} {} 1` to the loop", name, down ? "-=" : "+=") : "");
+  report(compiler::rules::EndlessLoop, root.span, compiler::texts::NothingChanges(name),
+         counts ? compiler::texts::AddToLoop(fmt::format("{} {} 1", name, down ? "-=" : "+="))
+                : Message());
 }
 
 void Checker::check_copy(const Statement& copy, const Statement& test, std::uint32_t symbol) {
@@ -357,9 +350,8 @@ void Checker::check_copy(const Statement& copy, const Statement& test, std::uint
         node.kind == NodeKind::Name && names_.of_node[n] == symbol)
       line.replace(node.span.begin - test.span.begin, node.span.end - node.span.begin, word);
   auto& d = report(compiler::rules::StaleSensor, copy.span,
-                   fmt::format("`{}` is read once, before the loop that waits for it", word),
-                   fmt::format("write `{}`", line));
-  d.notes.push_back({program_.nodes[condition].span, "the loop tests the copy here"});
+                   compiler::texts::ReadOnceBeforeLoop(word), texts::Write(line));
+  d.notes.push_back({program_.nodes[condition].span, compiler::texts::LoopTestsCopyHere()});
 }
 
 bool Checker::may_end(std::uint32_t loop, std::uint32_t symbol) const {
@@ -408,10 +400,10 @@ void Checker::check_counter(std::uint32_t i) {
           continue;
         const auto name = program_.name(names_.symbols[counter].name);
         report(compiler::rules::LoopLeavesRange, program_.nodes[node - 1].span,
-               fmt::format("`{}` counts from {} to {}, but `{}` has elements 1 to {}", name,
-                           first->value, last->value, program_.name(array.name), array.value),
-               fmt::format("write `for {} = 1 to {}` on line {}", name, array.value,
-                           line_of(loop.span)));
+               texts::CountsOut(name, first->value, last->value, program_.name(array.name), 1,
+                                array.value),
+               texts::WriteOnLine(fmt::format("for {} = 1 to {}", name, array.value),
+                                  line_of(loop.span)));
         return;
       }
     }

@@ -10,39 +10,38 @@ void Checker::check_place(std::uint32_t i, const Statement& statement) {
   const bool sets = statement.kind == Kind::Local && i + 1 < program_.statements.size() &&
                     at(i + 1).kind == Kind::Assign && at(i + 1).span.begin < statement.span.end;
   if (declares(statement.kind) && statement.depth > 0)
-    misplaced(statement, fmt::format("`{}` inside a block", word),
-              "declarations must be at top level");
+    misplaced(statement, texts::InsideBlock(word), texts::AtTopLevel());
   if ((statement.kind == Kind::Exit || statement.kind == Kind::Continue) && !in_loop())
-    stands_outside(statement, "a loop");
+    stands_outside(statement, texts::OutsideLoop);
   if (statement.kind == Kind::Local && (routine == 0 || statement.depth != 1) &&
       !in_broken_routine())
     misplaced(statement,
-              routine == 0 ? "`local` outside a sub or function" : "`local` inside a block",
-              routine != 0 ? "move it to the beginning of the sub"
-              : sets       ? fmt::format("write `{}`", program_.text_of(at(i + 1).span))
-                           : "variables in the main program need no declaration");
+              routine == 0 ? texts::OutsideRoutine("local") : texts::InsideBlock("local"),
+              routine != 0 ? texts::LocalFirst()
+              : sets       ? texts::Write(program_.text_of(at(i + 1).span))
+                           : texts::NoneInMain());
   if (statement.kind == Kind::Return)
     check_return(routine, statement);
   if (!open_.empty() && at(open_.back()).kind == Kind::Select &&
       at(open_.back()).next == none_yet(i) && !parts_block(statement.kind) &&
       !closes_block(statement.kind) && statement.kind != Kind::Broken)
-    misplaced(statement, "statement between `select` and its first `case`");
+    misplaced(statement, texts::BeforeFirstCase());
 }
 
 void Checker::check_return(std::uint32_t routine, const Statement& statement) {
   if (routine == 0) {
     if (!in_broken_routine())
-      stands_outside(statement, "a sub or function", "`end` ends the program");
+      stands_outside(statement, texts::OutsideRoutine, texts::EndEnds());
     return;
   }
   const auto& symbol = names_.symbols[names_.routines[routine].symbol];
   const bool function = symbol.kind == SymbolKind::Function;
   if (function && size(statement) == 0)
-    report(rules::ArgumentCount, statement.span, "a function must return a value",
-           "`return` takes the value, as in `return 0`");
+    report(rules::ArgumentCount, statement.span, texts::FunctionMustReturn(),
+           texts::ReturnTakesValue());
   else if (!function && size(statement) > 0)
-    turn(program_, names_, routine, "function",
-         report(rules::ArgumentCount, item(statement, 0).span, "a sub cannot return a value"));
+    turn(program_, names_, routine, SymbolKind::Function,
+         report(rules::ArgumentCount, item(statement, 0).span, texts::SubReturnsNone()));
 }
 
 void Checker::check_assign(const Statement& statement) {
@@ -98,11 +97,11 @@ void Checker::check_swapped(const Statement& statement) {
     return;
   const Span rest{speed.span.end, item(statement, size(statement) - 1).span.end};
   const auto& named = is_heading ? speed : heading;
+  const auto name = program_.text_of(named.span);
   report(rules::SwappedValues, named.span,
-         fmt::format("heading and speed seem to be swapped: `{}` is the {} here",
-                     program_.text_of(named.span), is_heading ? "speed" : "heading"),
-         fmt::format("write `goroll {}, {}{}`", program_.text_of(speed.span),
-                     program_.text_of(heading.span), program_.text_of(rest)));
+         is_heading ? texts::SpeedHere(name) : texts::HeadingHere(name),
+         texts::Write(fmt::format("goroll {}, {}{}", program_.text_of(speed.span),
+                                  program_.text_of(heading.span), program_.text_of(rest))));
 }
 
 void Checker::help_backwards(const Statement& statement, Diagnostic& d) {
@@ -110,8 +109,8 @@ void Checker::help_backwards(const Statement& statement, Diagnostic& d) {
   const auto speed = std::int64_t{value_of(item(statement, 1))->value};
   const Span rest{d.span.end, item(statement, size(statement) - 1).span.end};
   if (const auto back = heading ? compiler::heading_back(heading->value, speed) : std::nullopt)
-    d.help =
-        fmt::format("write `goroll {}, {}{}` to drive back", *back, -speed, program_.text_of(rest));
+    d.help = compiler::texts::WriteToDriveBack(
+        fmt::format("goroll {}, {}{}", *back, -speed, program_.text_of(rest)));
 }
 
 void Checker::check_colour(const Statement& statement) {
@@ -123,8 +122,7 @@ void Checker::check_colour(const Statement& statement) {
       size(statement) == 1 && node.kind == NodeKind::Name && names_.of_node[part.value] == none;
   if (named)
     return; // a colour, or reported as unknown
-  report(rules::ArgumentCount, statement.span,
-         fmt::format("`RGB` takes 3 values or a colour, found {}", size(statement)));
+  report(rules::ArgumentCount, statement.span, texts::RgbTakes("RGB", size(statement)));
 }
 
 void Checker::check_data(const Statement& statement) {
@@ -133,8 +131,7 @@ void Checker::check_data(const Statement& statement) {
     require_constant(part);
   if (size(statement) > most)
     report(compiler::rules::TooManyDataValues, item(statement, most).span,
-           fmt::format("the line has {} values; the robot ignores those after the {}th",
-                       size(statement), most));
+           compiler::texts::LineHasValues(size(statement), most));
 }
 
 void Checker::check_sleep(const Statement& statement) {
@@ -146,16 +143,13 @@ void Checker::check_sleep(const Statement& statement) {
     if (node.kind == NodeKind::Duration) {
       written = true;
       if (node.value % 1000 != 0)
-        report(rules::BadNumber, node.span,
-               fmt::format("`{}` is not a whole number of seconds", program_.text_of(node.span)),
-               "`sleep` counts in seconds");
+        report(rules::BadNumber, node.span, texts::NoWholeSeconds(program_.text_of(node.span)),
+               texts::SleepInSeconds());
     } else if (node.kind == NodeKind::Name && names_.of_node[n] != none &&
                names_.symbols[names_.of_node[n]].duration && !is_quotient(time.value)) {
       written = true;
-      report(rules::SecondsExpected, node.span,
-             fmt::format("`{}` is in milliseconds, but `sleep` counts in seconds",
-                         program_.text_of(node.span)),
-             "write the duration here, or divide by 1000");
+      report(rules::SecondsExpected, node.span, texts::InMilliseconds(program_.text_of(node.span)),
+             texts::DivideBy1000());
     }
   }
   if (!written)
@@ -163,8 +157,7 @@ void Checker::check_sleep(const Statement& statement) {
   if (size(statement) > 1)
     check_range(item(statement, 1), "sleep", parameters[1]);
   if (size(statement) > 2 && item(statement, 2).kind != ItemKind::Restart)
-    report(rules::MalformedLine, item(statement, 2).span,
-           "the third value of `sleep` must be the word `restart`");
+    report(rules::MalformedLine, item(statement, 2).span, texts::ThirdOfSleep("sleep", "restart"));
 }
 
 std::uint32_t Checker::variable_of(const Statement& loop) const {
@@ -178,12 +171,11 @@ void Checker::check_for(const Statement& statement) {
   });
   if (around != open_.rend()) {
     const auto name = program_.text_of(item(statement, 0).span);
-    auto& d = report(rules::LoopVariable, item(statement, 0).span,
-                     fmt::format("the enclosing loop already counts with `{}`", name));
-    d.notes.push_back({at(*around).span, fmt::format("this loop counts with `{}`", name)});
+    auto& d = report(rules::LoopVariable, item(statement, 0).span, texts::AlreadyCounts(name));
+    d.notes.push_back({at(*around).span, texts::ThisCounts(name)});
   }
   if (program_.nodes[item(statement, 0).value].kind == NodeKind::System)
-    report(rules::WrongUse, item(statement, 0).span, "a loop needs a variable to count with");
+    report(rules::WrongUse, item(statement, 0).span, texts::LoopNeedsVariable());
   if (size(statement) >= 4 && !require_constant(item(statement, 3)))
     return;
   if (size(statement) >= 4 && value_of(item(statement, 3))->value == 0)
@@ -208,10 +200,8 @@ void Checker::check_direction(const Statement& statement) {
   const Span counted{statement.word.begin, item(statement, 2).span.end};
   const auto turned = step == -1 ? std::string(program_.text_of(counted))
                                  : fmt::format("{} step {}", program_.text_of(counted), -step);
-  auto& d = report(rules::LoopNeverRuns, counted,
-                   fmt::format("the loop starts at {} and counts away from {}, so it never runs",
-                               from->value, to->value),
-                   fmt::format("write `{}`", turned));
+  auto& d = report(rules::LoopNeverRuns, counted, texts::CountsAway(from->value, to->value),
+                   texts::Write(turned));
   d.fix = Fix{d.help,
               {{{counted.begin, item(statement, size(statement) >= 4 ? 3 : 2).span.end}, turned}},
               Safety::Unsafe};
@@ -231,9 +221,9 @@ void Checker::check_next(const Statement& statement) {
   if (crossed_ == std::pair{named.value, counter.value})
     return; // the other `next` of the two said so
   crossed_ = {counter.value, named.value};
-  report(rules::LoopVariable, item(statement, 0).span,
-         fmt::format("the innermost loop variable is `{}`", program_.text_of(counter.span)),
-         fmt::format("write `next {}`, or `next` alone", program_.text_of(counter.span)));
+  const auto name = std::string(program_.text_of(counter.span));
+  report(rules::LoopVariable, item(statement, 0).span, compiler::texts::InnermostLoopVariable(name),
+         texts::WriteAlone("next " + name, "next"));
 }
 
 void Checker::check_case(const Statement& statement) {
@@ -251,14 +241,13 @@ void Checker::check_case(const Statement& statement) {
 
 void Checker::add_case(CaseRange range, Span span) {
   if (range.lo > range.hi) {
-    report(rules::CaseValue, span, fmt::format("{} is above {}", range.lo, range.hi),
-           "write the smaller value first");
+    report(rules::CaseValue, span, compiler::texts::IsAbove(range.lo, range.hi),
+           texts::SmallerFirst());
     return;
   }
   for (const auto& other : cases_)
     if (other.select == range.select && other.lo <= range.hi && range.lo <= other.hi) {
-      report(rules::CaseValue, span,
-             fmt::format("duplicate `case` {}", std::max(other.lo, range.lo)));
+      report(rules::CaseValue, span, texts::DuplicateCase(std::max(other.lo, range.lo)));
       return;
     }
   constexpr std::size_t most = 1024; // no robot holds more; looking for doubles takes pairs

@@ -85,7 +85,7 @@ void Checker::check_share(std::uint32_t n) {
                   per_cent, program_.text_of(nodes[quotient - 1].span));
   auto& d = report(compiler::rules::DividesFirst, nodes[n].span,
                    compiler::divides_first(program_.text_of(nodes[n].span), line));
-  d.fix = Fix{fmt::format("write `{}`", line), {{nodes[n].span, line}}, Safety::Unsafe};
+  d.fix = Fix{texts::Write(line), {{nodes[n].span, line}}, Safety::Unsafe};
 }
 
 std::uint32_t Checker::set_by(const Statement& statement) const {
@@ -125,9 +125,8 @@ void Checker::check_single_round(std::uint32_t i) {
   }
   if (last == none || at(last).kind != Kind::Exit || size(at(last)) > 0 || last == i + 1)
     return;
-  report(compiler::rules::LoopRunsOnce, at(last).span,
-         "the loop always ends here, in its first iteration",
-         "make it conditional: `if speed = 0 then exit`");
+  report(compiler::rules::LoopRunsOnce, at(last).span, texts::AlwaysEnds(),
+         texts::MakeConditional("if speed = 0 then exit"));
 }
 
 void Checker::check_products() {
@@ -176,8 +175,9 @@ void Checker::check_restart(std::uint32_t i) {
       if (at(m).depth == loop.depth + 1 && set_by(at(m)) == symbol) {
         if (adds_to(at(m), symbol) && is_read_below(loop.next, symbol))
           report(compiler::rules::SumRestarts, at(n).span,
-                 compiler::sum_restarts(program_.name(names_.symbols[symbol].name),
-                                        program_.text_of(at(n).span), "loop"));
+                 compiler::sum_restarts(
+                     program_.name(names_.symbols[symbol].name),
+                     compiler::texts::WriteAboveLoop(program_.text_of(at(n).span))));
         break;
       }
   }

@@ -4,10 +4,12 @@
 #include "compiler/lint/sensor_tests.h"
 #include "compiler/lint/sums.h"
 #include "compiler/text/rules.h"
+#include "compiler/text/texts.h"
 #include "spec/limits.h"
 #include "structured/meaning/check.h"
 #include "structured/text/blocks.h"
 #include "structured/text/rules.h"
+#include "structured/text/texts.h"
 #include "structured/text/words.h"
 
 #include <algorithm>
@@ -24,7 +26,7 @@ public:
   void run();
 
 private:
-  Diagnostic& report(const Rule& rule, Span span, std::string message, std::string help = {});
+  Diagnostic& report(const Rule& rule, Span span, Message message, Message help = {});
   Diagnostic& report(const Rule& rule, Span span, compiler::Said said) {
     return report(rule, span, std::move(said.message), std::move(said.help));
   }
@@ -96,11 +98,12 @@ private:
   /// Whether the line that begins the sub around a statement does not parse.
   bool in_broken_routine() const;
 
-  void misplaced(const Statement& statement, std::string message, std::string help = {});
+  void misplaced(const Statement& statement, Message message, Message help = {});
 
   /// Of what nothing is around to be left, also where the words are those of another language,
   /// which is not a second mistake.
-  void stands_outside(const Statement& statement, std::string_view of, std::string help = {});
+  void stands_outside(const Statement& statement, const Row<Hole::Code>& outside,
+                      Message help = {});
 
   void check_place(std::uint32_t i, const Statement& statement);
 
@@ -249,7 +252,7 @@ private:
 
   void check_uncalled(const Symbol& symbol);
 
-  void report_unused(const Symbol& symbol, std::string_view how);
+  void report_unused(const Symbol& symbol, const Row<Hole::Code>& unused);
 
   bool in_main_file(Span span) const;
 

@@ -1,10 +1,11 @@
-#include "base/text/text.h"
 #include "structured/meaning/symbols.h"
 
+#include "compiler/text/texts.h"
 #include "spec/limits.h"
 #include "structured/meaning/unknown_names.h"
 #include "structured/text/blocks.h"
 #include "structured/text/rules.h"
+#include "structured/text/texts.h"
 #include "structured/text/words.h"
 
 #include <algorithm>
@@ -15,17 +16,17 @@
 namespace orb::structured {
 namespace {
 
-std::string_view kind_word(SymbolKind kind) {
+Message kind_of(SymbolKind kind) {
   switch (kind) {
-  case SymbolKind::Variable: return "variable";
-  case SymbolKind::Local: return "local";
-  case SymbolKind::Parameter: return "parameter";
-  case SymbolKind::Constant: return "constant";
-  case SymbolKind::Array: return "array";
-  case SymbolKind::Sub: return "sub";
-  case SymbolKind::Function: return "function";
+  case SymbolKind::Variable: return texts::AVariable();
+  case SymbolKind::Local: return texts::ALocal();
+  case SymbolKind::Parameter: return texts::AParameter();
+  case SymbolKind::Constant: return texts::AConstant();
+  case SymbolKind::Array: return texts::AnArray();
+  case SymbolKind::Sub: return texts::ASub();
+  case SymbolKind::Function: return texts::AFunction();
   }
-  return "name";
+  return {};
 }
 
 class Resolver {
@@ -47,7 +48,7 @@ public:
   }
 
 private:
-  Diagnostic& report(const Rule& rule, Span span, std::string message, std::string help = {}) {
+  Diagnostic& report(const Rule& rule, Span span, Message message, Message help = {}) {
     return program_.diagnostics.emplace_back(
         finding(rule, span, std::move(message), std::move(help)));
   }
@@ -98,11 +99,10 @@ private:
   void report_taken(const Symbol& symbol, std::uint32_t other) {
     taken_.push_back(symbol.name);
     const auto& first = names_.symbols[other];
-    auto& d = report(
-        rules::NameTaken, symbol.span,
-        fmt::format("`{}` is already a {}", program_.text_of(symbol.span), kind_word(first.kind)),
-        "choose another name");
-    d.notes.push_back({first.span, "declared here"});
+    auto& d = report(rules::NameTaken, symbol.span,
+                     texts::AlreadyA(program_.text_of(symbol.span), kind_of(first.kind)),
+                     texts::ChooseAnother());
+    d.notes.push_back({first.span, texts::DeclaredHere()});
   }
 
   /// What statement `i` declares by its name.
@@ -155,10 +155,8 @@ private:
     const auto size = constant(statement.items_begin);
     if (size && (size->value < 1 || size->value > most - names_.elements)) {
       report(rules::ArraySize, program_.items[statement.items_begin].span,
-             names_.elements == 0
-                 ? fmt::format("an array can have 1 to {} elements, found {}", most, size->value)
-                 : fmt::format("{} of {} elements are left, found {}", most - names_.elements, most,
-                               size->value));
+             names_.elements == 0 ? texts::SizeFrom1(most, size->value)
+                                  : texts::ElementsLeft(most - names_.elements, most, size->value));
     } else if (size) {
       symbol.value = size->value;
       names_.elements += size->value;
@@ -194,8 +192,7 @@ private:
       symbol.value = macro.id;
       symbol.read = true;
       if (shared_[macro.name] != none) {
-        report(rules::NameTaken, symbol.span,
-               fmt::format("duplicate macro name `{}`", program_.name(macro.name)));
+        report(rules::NameTaken, symbol.span, texts::DuplicateMacro(program_.name(macro.name)));
         continue;
       }
       declare(symbol);
@@ -228,8 +225,7 @@ private:
       for (auto n = program_.nodes[part.value].first; n <= part.value; ++n)
         known = known && (program_.nodes[n].kind != NodeKind::Name || names_.of_node[n] != none);
       if (known)
-        report(rules::NotConstant, part.span, "not a constant expression",
-               "use literals and constants declared above");
+        report(rules::NotConstant, part.span, texts::NotConstant(), texts::UseLiterals());
     }
   }
 
@@ -376,22 +372,23 @@ private:
     if (element ? symbol.kind != SymbolKind::Array : !variable) {
       names_.of_node[n] = none;
       auto* d = report_wrong(node, symbol,
-                             element                               ? "it has no elements"
-                             : symbol.kind == SymbolKind::Function ? "`return e` gives its value"
-                             : symbol.kind == SymbolKind::Array    ? "an element needs an index"
-                                                                   : "it cannot be assigned to");
+                             element                               ? texts::NoElements()
+                             : symbol.kind == SymbolKind::Function ? texts::ReturnGivesValue()
+                             : symbol.kind == SymbolKind::Array    ? texts::NeedsIndex()
+                                                                   : texts::NotAssigned());
       if (d != nullptr && symbol.kind == SymbolKind::Function && statement.kind == Kind::Assign &&
           statement.operation == Statement::none_operation)
-        d->help = fmt::format("write `return {}`",
-                              program_.text_of(program_.items[statement.items_begin + 1].span));
+        d->help = texts::Write(fmt::format(
+            "return {}", program_.text_of(program_.items[statement.items_begin + 1].span)));
       if (d != nullptr && symbol.kind == SymbolKind::Constant)
         make_variable(symbol, *d);
       if (d != nullptr && symbol.kind == SymbolKind::Sub && statement.kind == Kind::Assign &&
           statement.operation == Statement::none_operation)
-        d->help = fmt::format("write `{}({})`", program_.text_of(node.span),
-                              program_.text_of(program_.items[statement.items_begin + 1].span));
+        d->help = texts::Write(
+            fmt::format("{}({})", program_.text_of(node.span),
+                        program_.text_of(program_.items[statement.items_begin + 1].span)));
     } else if (element && (statement.kind == Kind::For)) {
-      report(rules::WrongUse, node.span, "a loop counts with a variable, not an array element");
+      report(rules::WrongUse, node.span, texts::LoopNoElement());
     }
     // A loop counts in its variable; of what changes by being read it is the reading that counts.
     if (statement.kind == Kind::For ||
@@ -413,43 +410,41 @@ private:
                        symbol.kind == SymbolKind::Parameter || symbol.kind == SymbolKind::Constant;
     if (node.kind == NodeKind::Name && !value)
       wrong(n, symbol,
-            symbol.kind == SymbolKind::Array      ? "an element needs an index"
-            : symbol.kind == SymbolKind::Function ? "a function call needs parentheses"
-                                                  : "a sub does not return a value");
+            symbol.kind == SymbolKind::Array      ? texts::NeedsIndex()
+            : symbol.kind == SymbolKind::Function ? texts::CallNeedsParentheses()
+                                                  : texts::SubGivesNoValue());
     else if (node.kind == NodeKind::Element && symbol.kind != SymbolKind::Array)
-      wrong(n, symbol, "it has no elements");
+      wrong(n, symbol, texts::NoElements());
     else if (node.kind == NodeKind::Call && symbol.kind == SymbolKind::Sub &&
              gives_value(program_, names_, symbol.routine))
       names_.of_node[n] = none; // the `return` is told to make it a function
     else if (node.kind == NodeKind::Call && symbol.kind != SymbolKind::Function)
       wrong(n, symbol,
-            symbol.kind == SymbolKind::Sub ? "a sub does not return a value; call it as a statement"
-            : symbol.kind == SymbolKind::Array ? "write an element with brackets"
-                                               : "it cannot be called");
+            symbol.kind == SymbolKind::Sub     ? texts::CallAsStatement()
+            : symbol.kind == SymbolKind::Array ? texts::ElementInBrackets()
+                                               : texts::NotCalled());
     else if (node.kind == NodeKind::Call)
       check_call(index, node.count, node.span);
     if (symbol.kind == SymbolKind::Constant && rank_[symbol.statement] > rank_[statement]) {
       names_.of_node[n] = none;
-      report(rules::NotConstant, node.span,
-             fmt::format("the constant `{}` is declared below", program_.name(symbol.name)),
-             "move its declaration up");
+      report(rules::NotConstant, node.span, texts::DeclaredBelow(program_.name(symbol.name)),
+             texts::MoveDeclaration());
     }
   }
 
-  void wrong(std::uint32_t n, const Symbol& symbol, std::string_view why) {
+  void wrong(std::uint32_t n, const Symbol& symbol, Message why) {
     names_.of_node[n] = none;
-    report_wrong(program_.nodes[n], symbol, why);
+    report_wrong(program_.nodes[n], symbol, std::move(why));
   }
 
   /// Null where nothing is said.
-  Diagnostic* report_wrong(const Node& node, const Symbol& symbol, std::string_view why) {
+  Diagnostic* report_wrong(const Node& node, const Symbol& symbol, Message why) {
     if (std::find(taken_.begin(), taken_.end(), symbol.name) != taken_.end())
       return nullptr; // of two meanings the other may be meant
-    const auto name = program_.name(symbol.name);
-    const auto article = symbol.kind == SymbolKind::Array ? "an" : "a";
-    auto& d = report(rules::WrongUse, node.span,
-                     fmt::format("`{}` is {} {}; {}", name, article, kind_word(symbol.kind), why));
-    d.notes.push_back({symbol.span, "declared here"});
+    auto& d =
+        report(rules::WrongUse, node.span,
+               texts::WrongKind(program_.name(symbol.name), kind_of(symbol.kind), std::move(why)));
+    d.notes.push_back({symbol.span, texts::DeclaredHere()});
     return &d;
   }
 
@@ -459,26 +454,26 @@ private:
     const auto& routine = names_.routines[symbol.routine];
     if (count == routine.parameters)
       return;
+    const auto name = program_.name(symbol.name);
     auto& d = report(rules::ArgumentCount, span,
-                     fmt::format("`{}` takes {}, found {}", program_.name(symbol.name),
-                                 plural(routine.parameters, "value"), count));
+                     routine.parameters == 1
+                         ? compiler::texts::TakesOneFound(name, count)
+                         : compiler::texts::TakesFound(name, routine.parameters, count));
     const auto& header = program_.statements[routine.statement];
     if (routine.parameters == 0 && symbol.kind == SymbolKind::Sub)
-      d.help = fmt::format("write `{}`", program_.name(symbol.name));
+      d.help = texts::Write(name);
     if (count < routine.parameters)
-      d.help = fmt::format("`{}` is missing, as in `{}`",
-                           program_.name(names_.symbols[routine.first_parameter + count].name),
-                           program_.text_of({header.name_span.begin, header.span.end}));
+      d.help = texts::ArgumentMissing(
+          program_.name(names_.symbols[routine.first_parameter + count].name),
+          program_.text_of({header.name_span.begin, header.span.end}));
   }
 
   /// A constant that is assigned to was meant as a variable.
   void make_variable(const Symbol& symbol, Diagnostic& d) const {
     const auto& declared = program_.statements[symbol.statement];
     const Span word{declared.span.begin, declared.name_span.begin};
-    const auto rest = program_.text_of({word.end, declared.span.end});
-    d.help =
-        fmt::format("to change it, make it a variable: write `{}` above, without `const`", rest);
-    d.fix = Fix{"make it a variable", {{word, ""}}, Safety::Unsafe};
+    d.help = texts::MakeVariable(program_.text_of({word.end, declared.span.end}));
+    d.fix = Fix{texts::ItAVariable(), {{word, ""}}, Safety::Unsafe};
   }
 
   void look_up_call(std::uint32_t i) {
@@ -493,11 +488,11 @@ private:
     Node node;
     node.span = statement.name_span;
     if (symbol.kind == SymbolKind::Function) {
-      auto* d = report_wrong(node, symbol, "its value must be used, as in `x = name()`");
+      auto* d = report_wrong(node, symbol, texts::ValueMustBeUsed());
       if (d != nullptr && !gives_value(program_, names_, symbol.routine))
-        turn(program_, names_, symbol.routine, "sub", *d);
+        turn(program_, names_, symbol.routine, SymbolKind::Sub, *d);
     } else if (symbol.kind != SymbolKind::Sub) {
-      report_wrong(node, symbol, "a statement starts with a keyword, a sub or `name =`");
+      report_wrong(node, symbol, texts::StatementStarts());
     } else {
       names_.of_statement[i] = index;
       check_call(index, statement.items_end - statement.items_begin, statement.span);

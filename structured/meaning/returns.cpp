@@ -17,16 +17,19 @@ bool gives_value(const Program& program, const Names& names, std::uint32_t routi
   return false;
 }
 
-void turn(const Program& program, const Names& names, std::uint32_t routine, std::string_view word,
+void turn(const Program& program, const Names& names, std::uint32_t routine, SymbolKind into,
           Diagnostic& finding) {
   const auto& begin = program.statements[names.routines[routine].statement];
-  finding.help = fmt::format("make it a {0}: write `{0}{1}` … `end {0}`", word,
-                             program.text_of({begin.word.end, begin.span.end}));
+  const bool function = into == SymbolKind::Function;
+  const std::string word = function ? "function" : "sub";
+  const auto line = fmt::format("{}{}", word, program.text_of({begin.word.end, begin.span.end}));
+  finding.help =
+      function ? texts::MakeFunction(line, "end " + word) : texts::MakeSub(line, "end " + word);
   if (begin.next == none)
     return;
   const auto end = program.statements[begin.next].span;
-  finding.fix = Fix{fmt::format("make it a {}", word),
-                    {{begin.word, std::string(word)}, {end, fmt::format("end {}", word)}},
+  finding.fix = Fix{function ? texts::ItAFunction() : texts::ItASub(),
+                    {{begin.word, word}, {end, "end " + word}},
                     Safety::Unsafe};
 }
 
@@ -42,10 +45,8 @@ void Checker::check_values() {
     for (auto i = names_.routines[n].statement; i < begin.next && begin.next != none; ++i)
       if (at(i).kind == Kind::Assign)
         value = program_.text_of(item(at(i), 0).span);
-    report(
-        rules::NoValue, symbol.span,
-        fmt::format("`{}` never returns a value: it has no `return`", program_.name(symbol.name)),
-        fmt::format("add `return {}` before `end function`", value));
+    report(rules::NoValue, symbol.span, texts::NeverReturns(program_.name(symbol.name)),
+           texts::AddBefore(fmt::format("return {}", value), "end function"));
   }
 }
 

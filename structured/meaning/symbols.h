@@ -66,7 +66,7 @@ std::optional<Constant> evaluate(const Program& program, const Names& names, std
 bool gives_value(const Program& program, const Names& names, std::uint32_t routine);
 
 /// Offers to make a function of a sub, or the other way round.
-void turn(const Program& program, const Names& names, std::uint32_t routine, std::string_view word,
+void turn(const Program& program, const Names& names, std::uint32_t routine, SymbolKind into,
           Diagnostic& finding);
 
 /// Whether a statement does something besides giving a value, and so must stay.

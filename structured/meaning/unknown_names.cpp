@@ -4,6 +4,7 @@
 #include "structured/text/blocks.h"
 #include "structured/text/messages.h"
 #include "structured/text/rules.h"
+#include "structured/text/texts.h"
 #include "structured/text/words.h"
 
 #include <algorithm>
@@ -30,7 +31,7 @@ UnknownNames::UnknownNames(Program& program, const Names& names)
     : program_(program), names_(names), incomplete_(is_incomplete(program)),
       broken_(any_error(program.diagnostics)) {}
 
-Diagnostic& UnknownNames::add(const Rule& rule, Span span, std::string message, std::string help) {
+Diagnostic& UnknownNames::add(const Rule& rule, Span span, Message message, Message help) {
   return program_.diagnostics.emplace_back(
       finding(rule, span, std::move(message), std::move(help)));
 }
@@ -46,9 +47,8 @@ void UnknownNames::report(const Node& node, bool needs_declaration) {
           static_cast<std::uint32_t>(program_.name(static_cast<std::uint32_t>(node.value)).size())};
   if (span.size() > 1 && report_foreign(span, repair::Where::Inside)) // a letter is a name
     return;
-  if (find_colour(program_.text_of(span))) {
-    add(rules::UnknownName, span, fmt::format("`{}` is a colour", program_.text_of(span)),
-        fmt::format("use only a colour after `RGB`: `RGB {}`", program_.text_of(span)));
+  if (const auto text = std::string(program_.text_of(span)); find_colour(text)) {
+    add(rules::UnknownName, span, texts::IsAColour(text), texts::OnlyAColour("RGB", "RGB " + text));
     return;
   }
   std::vector<std::string_view> candidates;
@@ -57,17 +57,18 @@ void UnknownNames::report(const Node& node, bool needs_declaration) {
   for (const auto& row : spec::variables)
     candidates.push_back(row.word);
   suggest(span, candidates,
-          node.kind == NodeKind::Name      ? "is never assigned"
-          : node.kind == NodeKind::Element ? "is not an array"
-                                           : "is not a function");
+          node.kind == NodeKind::Name      ? texts::NeverAssigned
+          : node.kind == NodeKind::Element ? texts::NotAnArray
+                                           : texts::NotAFunction);
 }
 
 void UnknownNames::report_colour(Span span) {
   const auto names = colour_names();
   const auto name = program_.text_of(span);
-  add(rules::UnknownName, span, fmt::format("`{}` is neither a colour nor a variable", name),
-      did_you_mean(name, names,
-                   fmt::format("colours are {}, or `#FF8000`", fmt::join(names, ", "))));
+  const auto meant = closest(name, names);
+  add(rules::UnknownName, span, texts::NeitherColourNorVariable(name),
+      meant ? texts::DidYouMean(*meant)
+            : texts::ColoursAre(fmt::format("{}", fmt::join(names, ", "))));
 }
 
 void UnknownNames::report_word(Span span) {
@@ -81,7 +82,7 @@ void UnknownNames::report_word(Span span) {
     candidates.push_back(row.word);
   for (const auto& row : keywords)
     candidates.push_back(row.word);
-  suggest(span, candidates, "is neither a statement nor a sub");
+  suggest(span, candidates, texts::NeitherStatementNorSub);
 }
 
 bool UnknownNames::report_foreign(Span span, repair::Where where) {
@@ -92,17 +93,17 @@ bool UnknownNames::report_foreign(Span span, repair::Where where) {
 }
 
 void UnknownNames::suggest(Span span, const std::vector<std::string_view>& candidates,
-                           std::string_view what) {
+                           const Row<Hole::Code>& unknown) {
   if (incomplete_)
     return;
   constexpr std::size_t most = 64; // a suggestion for each of very many would take too long
   const auto name = std::string(program_.text_of(span));
-  auto& d = add(rules::UnknownName, span, fmt::format("`{}` {}", name, what));
+  auto& d = add(rules::UnknownName, span, unknown(name));
   if (++unknown_ > most)
     return;
   if (const auto meant = closest(name, candidates)) {
-    d.help = fmt::format("did you mean `{}`?", *meant);
-    d.fix = Fix{fmt::format("write `{}`", *meant), {Edit{span, *meant}}, Safety::Unsafe};
+    d.help = texts::DidYouMean(*meant);
+    d.fix = Fix{texts::Write(*meant), {Edit{span, *meant}}, Safety::Unsafe};
   }
 }
 

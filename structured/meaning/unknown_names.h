@@ -2,6 +2,7 @@
 
 // Private to resolve.cpp.
 
+#include "base/message.h"
 #include "repair/idioms.h"
 #include "structured/meaning/symbols.h"
 
@@ -29,10 +30,11 @@ public:
   void report_word(Span span);
 
 private:
-  Diagnostic& add(const Rule& rule, Span span, std::string message, std::string help = {});
+  Diagnostic& add(const Rule& rule, Span span, Message message, Message help = {});
   /// Says what a word of another language is here; false where it is none.
   bool report_foreign(Span span, repair::Where where);
-  void suggest(Span span, const std::vector<std::string_view>& candidates, std::string_view what);
+  void suggest(Span span, const std::vector<std::string_view>& candidates,
+               const Row<Hole::Code>& unknown);
 
   Program& program_;
   const Names& names_;

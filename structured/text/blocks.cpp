@@ -2,6 +2,7 @@
 
 #include "base/text/text.h"
 #include "structured/text/rules.h"
+#include "structured/text/texts.h"
 #include "structured/text/words.h"
 
 #include <algorithm>
@@ -112,8 +113,7 @@ private:
     routines_ += is_routine(role(i)) ? 1 : 0;
     if (open_.size() == deepest && !too_deep_) {
       too_deep_ = true;
-      report(rules::NestingDepth, i, fmt::format("more than {} nested blocks", deepest),
-             "move part of it into a sub");
+      report(rules::NestingDepth, i, texts::BlocksTooDeep(deepest), texts::MoveIntoSub());
     }
     open_.push_back(i);
     last_.push_back(i);
@@ -133,11 +133,9 @@ private:
   void report_unclosed(std::uint32_t i, const OpenBlock& block) {
     const auto where = program_.statements[i].word;
     const auto word = std::string(program_.text_of(where));
-    const auto end = fmt::format("`{}` after its last line", block.end_words);
-    if (!report(rules::UnclosedBlock, i, fmt::format("unterminated `{}`", word),
-                equal_words(word, block.word)
-                    ? fmt::format("write {}", end)
-                    : fmt::format("write `{}` instead, and {}", block.word, end)))
+    if (!report(rules::UnclosedBlock, i, texts::Unterminated(word),
+                equal_words(word, block.word) ? texts::WriteEnd(block.end_words)
+                                              : texts::WriteBoth(block.word, block.end_words)))
       return;
     alone_.insert(where.begin);
     offer_end(i, block, program_.diagnostics.back());
@@ -167,7 +165,7 @@ private:
         return; // it may be the end
       if (statement.role() == Kind::Robot && statement.robot == spec::Statement::End &&
           last != none) {
-        d.help = fmt::format("write `{}` on line {}", block.end_words, line_of(j));
+        d.help = texts::WriteOnLine(block.end_words, line_of(j));
         d.fix = Fix{d.help, {{statement.span, std::string(block.end_words)}}, Safety::Unsafe};
         return;
       }
@@ -244,16 +242,14 @@ private:
       return;
     }
     if (role(last_.back()) == Kind::Else)
-      report(rules::BlockEnd, i, "the `else` above must be the last part of its block",
-             "move the `else` to the end");
+      report(rules::BlockEnd, i, texts::ElseComesLast(), texts::MoveElse());
     link(i);
   }
 
   void report_stray(std::uint32_t i) {
     auto& statement = program_.statements[i];
     auto mend = mend_stray(i);
-    if (report(rules::BlockEnd, i,
-               fmt::format("`{}` without a matching block", program_.text_of(statement.word)),
+    if (report(rules::BlockEnd, i, texts::NoMatchingBlock(program_.text_of(statement.word)),
                std::move(mend.help))) {
       program_.diagnostics.back().fix = std::move(mend.fix);
       alone_.insert(statement.word.begin);
@@ -262,7 +258,7 @@ private:
   }
 
   struct Mend {
-    std::string help;
+    Message help;
     std::optional<Fix> fix = {};
   };
 
@@ -274,21 +270,20 @@ private:
     if (parts_block(statement.role()))
       return {};
     if (open_.empty())
-      return closes_block(statement.role()) ? Mend{"remove the line", remove(statement)} : Mend{};
+      return closes_block(statement.role()) ? Mend{texts::RemoveLine(), remove(statement)} : Mend{};
     const auto& opener = program_.statements[open_.back()];
     const auto reopen = [&](const std::string& word) {
-      return Fix{fmt::format("write `{}`", word), {{opener.word, word}}, Safety::Unsafe};
+      return Fix{texts::Write(word), {{opener.word, word}}, Safety::Unsafe};
     };
     if (statement.role() == Kind::EndSub && returns_nothing(i))
-      return {fmt::format("write `sub{}` instead of the `function` above", after_word(opener)),
-              reopen("sub")};
+      return {texts::WriteInstead("sub" + after_word(opener), "function"), reopen("sub")};
     if (statement.role() == Kind::Until && opener.role() == Kind::Loop)
-      return {"write `repeat` instead of the `loop` above", reopen("repeat")};
+      return {texts::WriteInstead("repeat", "loop"), reopen("repeat")};
     const auto* const block = by_opener(opener.role());
     const std::string end(block->end_words);
-    Mend mend{fmt::format("write `{}`; the open block is a `{}`", end, block->word)};
+    Mend mend{texts::WriteBecause(end, texts::OpenBlock(block->word))};
     if (closes_block(statement.role()))
-      mend.fix = Fix{fmt::format("write `{}`", end), {{statement.span, end}}, Safety::Unsafe};
+      mend.fix = Fix{texts::Write(end), {{statement.span, end}}, Safety::Unsafe};
     return mend;
   }
 
@@ -301,7 +296,7 @@ private:
     if (text.find_first_not_of(" \t", line) != statement.span.begin ||
         text.find_first_of("\r\n", statement.span.end) != statement.span.end)
       return std::nullopt;
-    return Fix{"remove the line",
+    return Fix{texts::RemoveLine(),
                {{{static_cast<std::uint32_t>(line), static_cast<std::uint32_t>(next)}, {}}},
                Safety::Unsafe};
   }
@@ -319,12 +314,13 @@ private:
 
   /// The `if` that an `elseif` without one may have been meant for; empty where it compares
   /// nothing.
-  std::string begin_if(const Statement& statement) const {
+  Message begin_if(const Statement& statement) const {
     auto condition = after_word(statement);
     if (condition.find_first_of("<>=") == std::string::npos)
       return {};
     condition.resize(condition.find_last_not_of(" \t:{") + 1);
-    return fmt::format("write `if{}{}`", condition, condition.ends_with(" then") ? "" : " then");
+    return texts::Write(
+        fmt::format("if{}{}", condition, condition.ends_with(" then") ? "" : " then"));
   }
 
   /// What a statement says after its word.
@@ -333,7 +329,7 @@ private:
   }
 
   /// Of a line that does not parse all is said: false.
-  bool report(const Rule& rule, std::uint32_t i, std::string message, std::string help) {
+  bool report(const Rule& rule, std::uint32_t i, Message message, Message help) {
     const auto& statement = program_.statements[i];
     if (statement.kind == Kind::Broken)
       return false;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "base/message.h"
+
 #include <optional>
 #include <string>
 #include <string_view>
@@ -15,10 +17,10 @@ public:
   virtual std::optional<std::string> read(const std::string& path) = 0;
 
   /// What `path` is that it is not read: `a pipe`, `a device`; empty for a file, and for nothing.
-  virtual std::string obstacle(const std::string& path);
+  virtual Message obstacle(const std::string& path);
 
-  /// Why `path` cannot be read, as a sentence.
-  virtual std::string trouble(const std::string& path);
+  /// Why `path` cannot be read.
+  virtual Message trouble(const std::string& path);
 
   /// What two paths of one file have in common.
   virtual std::string identity(const std::string& path);

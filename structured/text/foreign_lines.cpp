@@ -4,6 +4,7 @@
 
 #include "structured/text/blocks.h"
 #include "structured/text/messages.h"
+#include "structured/text/texts.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -129,10 +130,10 @@ void Lines::condition(Input& in, Span words, bool as_is, std::string_view instea
       program_.text_of({builder_.span(begin, begin).begin, builder_.statement().span.end});
   builder_.unary(NodeKind::Not, 0, builder_.last().span);
   program_.items.back().value = builder_.nodes() - 1;
-  auto d = habit(program_, words, {}, fmt::format("write `{} not ({})`", instead, text));
+  auto turned = fmt::format("{} not ({})", instead, text);
+  auto d = habit(program_, words, {}, texts::Write(turned));
   d.fix = Fix{d.help,
-              {Edit{{words.begin, builder_.statement().span.end},
-                    fmt::format("{} not ({})", instead, text)}},
+              {Edit{{words.begin, builder_.statement().span.end}, std::move(turned)}},
               Safety::Safe};
   builder_.report(std::move(d));
 }

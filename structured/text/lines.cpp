@@ -2,6 +2,7 @@
 
 #include "structured/text/blocks.h"
 #include "structured/text/messages.h"
+#include "structured/text/texts.h"
 
 #include <algorithm>
 #include <utility>
@@ -157,8 +158,7 @@ void Lines::next_line(Input& in, std::string_view word) {
   if (!several)
     return;
   builder_.statement().items_end = builder_.statement().items_begin;
-  builder_.report(habit(program_, {begin, builder_.statement().span.end}, {},
-                        "write `next` on a line of its own for each loop"));
+  builder_.report(habit(program_, {begin, builder_.statement().span.end}, {}, texts::NextEach()));
 }
 
 void Lines::select_line(Input& in, std::string_view word) {

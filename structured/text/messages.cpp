@@ -2,9 +2,11 @@
 
 #include "base/text/suggest.h"
 #include "base/text/text.h"
+#include "compiler/text/texts.h"
 #include "repair/tokens.h"
 #include "spec/limits.h"
 #include "structured/text/rules.h"
+#include "structured/text/texts.h"
 #include "structured/text/words.h"
 
 #include <algorithm>
@@ -15,15 +17,10 @@
 namespace orb::structured {
 namespace {
 
-std::string shown(const Program& program, Span found) {
-  if (found.size() == 0)
-    return "unexpected end of line";
-  return fmt::format("found `{}`", program.text_of(found));
-}
-
-Diagnostic malformed(const Program& program, Span found, std::string_view what,
-                     std::string help = {}) {
-  return finding(rules::MalformedLine, found, fmt::format("{}, {}", what, shown(program, found)),
+Diagnostic malformed(const Program& program, Span found, Message problem, Message help = {}) {
+  return finding(rules::MalformedLine, found,
+                 found.size() == 0 ? texts::UnexpectedEnd(std::move(problem))
+                                   : texts::Found(std::move(problem), program.text_of(found)),
                  std::move(help));
 }
 
@@ -67,42 +64,37 @@ Diagnostic trailing(const Program& program, Span found) {
   const auto statement = first_word(program.text, found.begin);
   const char before = sign_before(program.text, found.begin);
   if (before == ',' && begins_line(program.text, found.begin))
-    return malformed(program, found, "the comma above continues its line",
-                     "to print a trailing space write `, ;`");
+    return malformed(program, found, texts::CommaContinues(), texts::TrailingSpace());
   if (text == "=" && before == ')' && find_word(statement).kind == WordKind::Name) {
     const std::string_view all = program.text;
     const auto end = std::min(all.find_first_of("'\r\n", found.end), all.size());
     const auto index = all.find('(', static_cast<std::size_t>(statement.data() - all.data())) + 1;
-    return malformed(program, found, "an array index is written in brackets",
-                     fmt::format("write `{}[{}] = {}`", statement,
+    return malformed(
+        program, found, texts::IndexInBrackets(),
+        texts::Write(fmt::format("{}[{}] = {}", statement,
                                  trim(all.substr(index, all.rfind(')', found.begin) - index)),
-                                 trim(all.substr(found.end, end - found.end))));
+                                 trim(all.substr(found.end, end - found.end)))));
   }
   if (text == "=" && before == ']' && equal_words(statement, "array"))
-    return malformed(program, found, "an array takes no initial values: its elements start as 0",
-                     "set each on a line of its own, as in `a[1] = 5`");
+    return malformed(program, found, texts::NoInitialValues(), texts::SetEach());
   if (text == ":")
-    return finding(rules::ForeignWord, found, "`:` does not separate statements",
-                   "write one statement per line");
+    return finding(rules::ForeignWord, found, texts::DoesNotSeparate(text), texts::OnePerLine());
   if (text == "+" && before == '"')
-    return malformed(program, found, "strings cannot be concatenated",
-                     "write the parts side by side: `print \"x is \" x`");
+    return malformed(program, found, texts::NoConcatenation(), texts::PartsSideBySide());
   if (is_digit(before) &&
       (equal_words(text, "ms") || equal_words(text, "s") || equal_words(text, "min")))
-    return malformed(
-        program, {word_before(program.text, found.begin).begin, found.end},
-        "a unit directly follows its number",
-        fmt::format("write `{}{}`", program.text_of(word_before(program.text, found.begin)), text));
+    return malformed(program, {word_before(program.text, found.begin).begin, found.end},
+                     texts::UnitFollows(),
+                     texts::Write(fmt::format(
+                         "{}{}", program.text_of(word_before(program.text, found.begin)), text)));
   if (equal_words(statement, "loop"))
-    return malformed(program, found, "`loop` takes no count: it repeats forever",
-                     "write `repeat 5` … `end repeat`, or `repeat` … `until dshake`");
+    return malformed(program, found, texts::TakesNoCount("loop"), texts::RepeatCounts());
   const auto word = find_word(statement);
   if (word.kind == WordKind::Statement &&
       spec::statements[word.index].form == spec::Form::Arguments && is_name_char(before) &&
       is_digit(text.front()))
-    return malformed(program, found, "unexpected text after the statement",
-                     "separate values with commas: `RGB 255, 0, 0`");
-  return malformed(program, found, "unexpected text after the statement");
+    return malformed(program, found, texts::TextAfterStatement(), texts::SeparateValues());
+  return malformed(program, found, texts::TextAfterStatement());
 }
 
 /// A value that is missing at the end of a line shows in the next one, but is to be written there.
@@ -112,9 +104,8 @@ Diagnostic missing_value(const Program& program, Span found) {
   while (end > 0 && (is_blank(text[end - 1]) || is_line_end(text[end - 1])))
     --end;
   if (!begins_line(text, found.begin) || end == 0 || is_name_char(text[end - 1]))
-    return malformed(program, found, "missing value");
-  return finding(rules::MalformedLine, {end - 1, end},
-                 fmt::format("missing value after `{}`", text[end - 1]));
+    return malformed(program, found, texts::MissingValue());
+  return finding(rules::MalformedLine, {end - 1, end}, texts::MissingValueAfter(text[end - 1]));
 }
 
 /// Values after a name without parentheses: a statement that is misspelt, or a call.
@@ -124,19 +115,16 @@ Diagnostic naked_arguments(const Program& program, Span found) {
     return *std::move(known);
   const auto word = std::string(program.text_of(called));
   if (program.text[found.begin] == '$')
-    return finding(rules::MalformedLine, found, "names have no `$`",
-                   "variables hold integers; strings are only allowed in `print`");
+    return finding(rules::MalformedLine, found, texts::NoDollar(), texts::OnlyIntegers());
   if (spec::find_operator(program.text[found.begin]))
-    return malformed(program, found, "a value is not a statement",
-                     fmt::format("write `{0} = {0} + 1`, or `print {0}`", word));
+    return malformed(program, found, texts::ValueNoStatement(), texts::SetOrPrint(word));
   std::vector<std::string_view> statements;
   for (const auto& row : spec::statements)
     statements.push_back(row.word);
   if (const auto meant = closest(word, statements))
-    return finding(rules::UnknownName, called,
-                   fmt::format("`{}` is neither a statement nor a sub", word),
-                   fmt::format("did you mean `{}`?", *meant));
-  return malformed(program, found, "the arguments of a call need parentheses");
+    return finding(rules::UnknownName, called, texts::NeitherStatementNorSub(word),
+                   texts::DidYouMean(*meant));
+  return malformed(program, found, texts::CallInParentheses());
 }
 
 /// Whether `=` or `+=` and the like stand at a place.
@@ -176,8 +164,7 @@ Diagnostic foreign_character(const Program& program, Span found) {
   const auto sign = program.text_of(found);
   for (const std::string_view quote : {"“", "”", "„", "«", "»"})
     if (sign.starts_with(quote))
-      return finding(rules::MalformedLine, found, fmt::format("`{}` is not a quotation mark", sign),
-                     "use `\"` before and after the text");
+      return finding(rules::MalformedLine, found, texts::NoQuotationMark(sign), texts::UseQuotes());
   const auto is_part = [&](std::uint32_t at) {
     return is_name_char(text[at]) || is_foreign(text[at]);
   };
@@ -186,10 +173,8 @@ Diagnostic foreign_character(const Program& program, Span found) {
     --word.begin;
   while (word.end < text.size() && is_part(word.end))
     ++word.end;
-  return finding(
-      rules::MalformedLine, word,
-      fmt::format("`{}` is not a valid name: it contains `{}`", program.text_of(word), sign),
-      "names consist of letters a to z, digits and `_`");
+  return finding(rules::MalformedLine, word, texts::NotAName(program.text_of(word), sign),
+                 texts::NamesConsistOf());
 }
 
 Diagnostic reserved(const Program& program, Span word) {
@@ -199,35 +184,32 @@ Diagnostic reserved(const Program& program, Span word) {
   const auto behind = program.text.find_first_not_of(" \t+-*/%", word.end);
   const bool names = declares || holds("const array local for read input next", first) ||
                      (behind != std::string::npos && program.text[behind] == '=');
-  if (((before == '(' || before == ',') && !declares) || !names)
-    return finding(rules::ReservedName, word,
-                   fmt::format("`{}` is a reserved word", program.text_of(word)),
-                   "a reserved word is not a value");
-  return finding(rules::ReservedName, word,
-                 fmt::format("`{}` is a reserved word", program.text_of(word)),
-                 fmt::format("write `my_{}` on all these lines", program.text_of(word)));
+  const auto text = program.text_of(word);
+  return finding(rules::ReservedName, word, texts::Reserved(text),
+                 ((before == '(' || before == ',') && !declares) || !names
+                     ? texts::ReservedNoValue()
+                     : texts::WriteOnAll(fmt::format("my_{}", text)));
 }
 
 /// How a call of a function is written whose argument lacks its parentheses.
-std::string call_of(std::string_view function, std::string_view argument) {
+Message call_of(std::string_view function, std::string_view argument) {
   const bool known = !argument.empty() && is_name_char(argument.front());
-  return fmt::format("write it like `{}({})`", function, known ? argument : "e");
+  return texts::WriteLike(fmt::format("{}({})", function, known ? argument : "e"));
 }
 
 /// The robot's variables that a program can set.
-std::string settable() {
+Message settable() {
   std::string all;
   for (const auto& row : spec::variables)
     if (row.access == spec::Access::ReadWrite)
       all += fmt::format("{}`{}`", all.empty() ? "" : ", ", row.word);
-  return fmt::format("of the robot's variables, only these can be set: {}", all);
+  return texts::OnlyTheseSet(std::move(all));
 }
 
 /// A sensor that is set. Where other lines read it, too, a variable was meant.
 Diagnostic read_only(const Program& program, Span found) {
   const auto sensor = program.text_of(found);
-  auto d =
-      finding(rules::WrongUse, found, fmt::format("`{}` can only be read", sensor), settable());
+  auto d = finding(rules::WrongUse, found, compiler::texts::CanOnlyBeRead(sensor), settable());
   for (const auto* set : {"yaw", "xpos", "ypos"})
     if (equal_words(sensor, set))
       return d; // by a statement
@@ -252,32 +234,29 @@ Diagnostic read_only(const Program& program, Span found) {
   }
   if (edits.size() < 2)
     return d;
-  d.help =
-      fmt::format("`{}` is what the ball measures: write `{}` on all these lines", sensor, name);
-  d.fix = Fix{fmt::format("call it `{}`", name), std::move(edits), Safety::Unsafe};
+  d.help = texts::BallMeasures(sensor, name);
+  d.fix = Fix{texts::CallIt(name), std::move(edits), Safety::Unsafe};
   return d;
 }
 
 Diagnostic bad_number(Span found, std::string_view text) {
   if (text.starts_with('#'))
-    return finding(rules::BadNumber, found, fmt::format("`{}` is not a colour", text),
-                   "a colour has six hexadecimal digits: `#FF8000`");
+    return finding(rules::BadNumber, found, texts::NotAColour(text), texts::SixDigits());
   const bool hex = text.size() > 2 && to_lower(text[1]) == 'x' &&
                    text.find_first_not_of("0123456789abcdefABCDEF", 2) == std::string_view::npos;
   if (hex || std::all_of(text.begin(), text.end(), is_digit))
-    return finding(
-        rules::BadNumber, found,
-        fmt::format("`{}` is above {}", text, spec::value_of(spec::Limit::GreatestInteger)));
-  return finding(rules::BadNumber, found, fmt::format("`{}` is not a number", text),
-                 "numbers are whole, 0 to 2147483647; durations are `250ms`, `1.5s`, `2min`");
+    return finding(rules::BadNumber, found,
+                   texts::AboveGreatest(text, spec::value_of(spec::Limit::GreatestInteger)));
+  return finding(
+      rules::BadNumber, found, texts::NotANumber(text),
+      texts::NumbersAre(0, spec::value_of(spec::Limit::GreatestInteger), "250ms", "1.5s", "2min"));
 }
 
 /// Values of a statement in parentheses, as other languages call their functions.
 Diagnostic parenthesised(const Program& program, Span found) {
   const auto statement = first_word(program.text, found.begin);
-  auto d = finding(rules::MalformedLine, found,
-                   fmt::format("`{}` takes its values without parentheses", statement),
-                   "remove the parentheses");
+  auto d = finding(rules::MalformedLine, found, texts::NoParentheses(statement),
+                   texts::RemoveParentheses());
   d.fix =
       Fix{d.help,
           {Edit{{found.begin, found.begin + 1}, is_blank(program.text[found.begin - 1]) ? "" : " "},
@@ -317,12 +296,9 @@ Diagnostic second_index(const Program& program, Span found) {
   const bool declared =
       equal_words(first_word(text, found.begin), "array") && rows > 0 && columns > 0 &&
       std::int64_t{rows} * columns <= spec::value_of(spec::Limit::IndexedVariables);
-  return malformed(
-      program, found, "an array has one index",
-      declared ? fmt::format("write `array {0}[{1}]`; row `r`, column `c` is "
-                             "`{0}[(r - 1) * {2} + c]`",
-                             name, rows * columns, columns)
-               : fmt::format("with 3 columns, row `r`, column `c` is `{}[(r - 1) * 3 + c]`", name));
+  return malformed(program, found, texts::OneIndex(),
+                   declared ? texts::TableOf(name, rows * columns, columns)
+                            : texts::TableOfThree(name));
 }
 
 } // namespace
@@ -335,8 +311,8 @@ bool goes_on_as_word(const Program& program, Span number) {
 
 /// A number in front of a line: of a few lines it is a slip, of all another language.
 Diagnostic numbered_line(const Program& program, Span found) {
-  auto d = finding(rules::NumberedLine, found, "structured programs have no line numbers",
-                   "`orb lift` turns a numbered program into a structured one");
+  auto d =
+      finding(rules::NumberedLine, found, texts::NoLineNumbers(), texts::TurnsNumbered("orb lift"));
   const std::string_view text = program.text;
   std::size_t numbered = 0;
   std::size_t all = 0;
@@ -351,8 +327,8 @@ Diagnostic numbered_line(const Program& program, Span found) {
   if (numbered * 2 > all || after == std::string_view::npos)
     return d;
   const auto end = std::min(text.find_first_of("\r\n", after), text.size());
-  d.help = fmt::format("write `{}`", text.substr(after, end - after));
-  d.fix = Fix{"remove the number",
+  d.help = texts::Write(text.substr(after, end - after));
+  d.fix = Fix{compiler::texts::RemoveNumber(),
               {{{found.begin, static_cast<std::uint32_t>(after)}, {}}},
               Safety::Unsafe};
   return d;
@@ -363,8 +339,7 @@ Diagnostic explain(const Program& program, Reason reason, Span found) {
   if (!text.empty() && is_foreign(text.front()))
     return foreign_character(program, found);
   if (reason == Reason::ExpectedExpression && text == "#")
-    return malformed(program, found, "a colour is not a value",
-                     "use it alone after `RGB`: `RGB #FF8000`");
+    return malformed(program, found, texts::ColourNoValue(), texts::ColourAfterRgb());
   const bool other_expected = reason <= Reason::ExpectedParenthesis;
   if (other_expected || reason == Reason::NotAStatement)
     if (auto known = foreign(program, found, repair::Where::Inside))
@@ -373,89 +348,82 @@ Diagnostic explain(const Program& program, Reason reason, Span found) {
     return reserved(program, *word);
   switch (reason) {
   case Reason::Trailing: return trailing(program, found);
-  case Reason::ExpectedStatement: return malformed(program, found, "missing statement");
+  case Reason::ExpectedStatement: return malformed(program, found, texts::MissingStatement());
   case Reason::ExpectedExpression:
     if (text.starts_with('"'))
-      return malformed(
-          program, found, "a string is not a value",
-          "strings are only allowed in `print`, without parentheses: `print \"hello\"`");
+      return malformed(program, found, texts::StringNoValue(),
+                       texts::StringsOnlyIn("print", "print \"hello\""));
     return missing_value(program, found);
   case Reason::ExpectedPlace:
-    return malformed(program, found, "expected a variable or an array element",
+    return malformed(program, found, texts::Expected(texts::APlace()),
                      text == "(" && equal_words(first_word(program.text, found.begin), "for")
-                         ? "write `for n = 1 to 4` … `next n`"
-                         : "");
-  case Reason::ExpectedName: return malformed(program, found, "expected a name");
+                         ? texts::WriteBlock("for n = 1 to 4", "next n")
+                         : Message());
+  case Reason::ExpectedName: return malformed(program, found, texts::Expected(texts::AName()));
   case Reason::ExpectedEquals:
-    return malformed(
-        program, found, "missing `=`",
-        equal_words(first_word(program.text, found.begin), "for") ? "write `for n = 1 to 4`" : "");
+    return malformed(program, found, texts::Missing("="),
+                     equal_words(first_word(program.text, found.begin), "for")
+                         ? texts::Write("for n = 1 to 4")
+                         : Message());
   case Reason::ExpectedThen:
-    return malformed(
-        program, found, "missing `then`",
-        "write `if … then` and the statement, or `if … then` alone and `end if` below");
-  case Reason::ExpectedTo: return malformed(program, found, "missing `to`");
-  case Reason::ExpectedComma: return malformed(program, found, "too few values");
+    return malformed(program, found, texts::Missing("then"), texts::ThenOnItsOwn());
+  case Reason::ExpectedTo: return malformed(program, found, texts::Missing("to"));
+  case Reason::ExpectedComma: return malformed(program, found, texts::TooFewValues());
   case Reason::ExpectedBracket:
-    return malformed(program, found, "missing bracket",
-                     text == "(" ? "the size of an array is written in brackets: `array a[5]`"
+    return malformed(program, found, texts::MissingBracket(),
+                     text == "(" ? texts::SizeInBrackets()
                      : text == "=" && list_after(program, found) > 0
-                         ? fmt::format("write `array {0}[{1}]` and set each element: `{0}[1] = …`",
-                                       program.text_of(word_before(program.text, found.begin)),
-                                       list_after(program, found))
+                         ? texts::SetEachOf(program.text_of(word_before(program.text, found.begin)),
+                                            list_after(program, found))
                      : equal_words(first_word(program.text, found.begin), "dim")
-                         ? "variables need no declaration: remove the line"
-                         : "");
-  case Reason::ExpectedParenthesis: return malformed(program, found, "missing parenthesis");
+                         ? texts::NoDeclaration()
+                         : Message());
+  case Reason::ExpectedParenthesis: return malformed(program, found, texts::MissingParenthesis());
   case Reason::ExpectedOperand:
-    return malformed(program, found, "a function needs its argument in parentheses",
+    return malformed(program, found, texts::ArgumentInParentheses(),
                      call_of(program.text_of(word_before(program.text, found.begin)), text));
   case Reason::ExpectedOne:
-    return finding(rules::ArgumentCount, found, fmt::format("`{}` takes one value", text),
-                   fmt::format("write it like `{}(e)`", text));
+    return finding(rules::ArgumentCount, found, texts::TakesOneValue(text),
+                   texts::WriteLike(text + "(e)"));
   case Reason::ExpectedTwo:
-    return finding(rules::ArgumentCount, found, fmt::format("`{}` takes two values", text),
-                   fmt::format("write it like `{}(a, b)`", text));
-  case Reason::ExpectedQuote: return finding(rules::MalformedLine, found, "unterminated string");
-  case Reason::ExpectedFile: return malformed(program, found, "expected a file name in quotes");
-  case Reason::NotAStatement:
-    return finding(rules::MalformedLine, found, fmt::format("unexpected `{}`", text));
+    return finding(rules::ArgumentCount, found, texts::TakesTwoValues(text),
+                   texts::WriteLike(text + "(a, b)"));
+  case Reason::ExpectedQuote:
+    return finding(rules::MalformedLine, found, compiler::texts::UnterminatedString());
+  case Reason::ExpectedFile: return malformed(program, found, texts::Expected(texts::AFile()));
+  case Reason::NotAStatement: return finding(rules::MalformedLine, found, texts::Unexpected(text));
   case Reason::NakedArguments: return naked_arguments(program, found);
-  case Reason::TooManyArguments: return finding(rules::ArgumentCount, found, "too many values");
+  case Reason::TooManyArguments:
+    return finding(rules::ArgumentCount, found, texts::TooManyValues());
   case Reason::ReadOnly: return read_only(program, found);
   case Reason::Reserved: return reserved(program, found);
   case Reason::NameTooLong:
-    return finding(
-        rules::ReservedName, found,
-        fmt::format("the name is {} characters long; the limit is {}", found.size(), longest_name));
+    return finding(rules::ReservedName, found, texts::NameTooLong(found.size(), longest_name));
   case Reason::BadNumber: return bad_number(found, text);
   case Reason::FractionOfMillisecond:
-    return finding(rules::BadNumber, found,
-                   fmt::format("`{}` is not a whole number of milliseconds", text));
+    return finding(rules::BadNumber, found, texts::NoWholeMilliseconds(text));
   case Reason::TooDeep:
-    return finding(rules::NestingDepth, found, "more than 64 nested brackets",
-                   "compute part of it on a separate line");
+    return finding(rules::NestingDepth, found, texts::BracketsTooDeep(),
+                   compiler::texts::ComputeSeparately());
   case Reason::NestedIf:
-    return finding(rules::MisplacedStatement, found, "`if` inside a one-line `if`",
-                   "write `if … then`, the inner `if` below it, and `end if`");
+    return finding(rules::MisplacedStatement, found, texts::IfInOneLine(), texts::InnerIfBelow());
   case Reason::BlockInOneLine:
-    return finding(rules::MisplacedStatement, found,
-                   fmt::format("`{}` is not allowed in a one-line `if`", text),
-                   "write `if … then`, the statement below it, and `end if`");
+    return finding(rules::MisplacedStatement, found, texts::NotInOneLine(text),
+                   texts::StatementBelow());
   case Reason::LineNumber:
     return std::all_of(text.begin(), text.end(), is_digit) && !goes_on_as_word(program, found)
                ? numbered_line(program, found)
-               : finding(rules::MalformedLine, found, fmt::format("unexpected `{}`", text));
+               : finding(rules::MalformedLine, found, texts::Unexpected(text));
   case Reason::Gosub:
-    return finding(rules::ForeignWord, found, "there is no `gosub`",
-                   "write `sub name` … `end sub` and call it by name");
+    return finding(rules::ForeignWord, found, compiler::texts::ThereIsNo("gosub"),
+                   texts::SubInstead());
   case Reason::On:
-    return finding(rules::ForeignWord, found, "there is no `on`",
-                   "write `select e`, `case 1` … `end select`");
+    return finding(rules::ForeignWord, found, compiler::texts::ThereIsNo("on"),
+                   texts::SelectInstead());
   case Reason::Parenthesised: return parenthesised(program, found);
   case Reason::SecondIndex: return second_index(program, found);
   }
-  return finding(rules::MalformedLine, found, "syntax error");
+  return finding(rules::MalformedLine, found, texts::SyntaxError());
 }
 
 } // namespace orb::structured

@@ -50,8 +50,7 @@ Diagnostic explain(const Program& program, Reason reason, Span found);
 
 /// A habit of another language that was taken all the same, with the word to write instead; an
 /// empty `instead` has no fix.
-Diagnostic habit(const Program& program, Span found, std::string_view instead,
-                 std::string_view help = {});
+Diagnostic habit(const Program& program, Span found, std::string_view instead, Message help = {});
 
 /// `print 'hello'`: a text in single quotes, which is a comment.
 Diagnostic single_quotes(const Program& program, Span text);

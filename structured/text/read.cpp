@@ -2,11 +2,13 @@
 
 #include "assembler/assemble.h"
 #include "base/path.h"
+#include "base/texts.h"
 #include "compiler/check.h"
 #include "compiler/text/rules.h"
 #include "structured/text/blocks.h"
 #include "structured/text/parse.h"
 #include "structured/text/rules.h"
+#include "structured/text/texts.h"
 #include "structured/text/words.h"
 
 #include <algorithm>
@@ -71,16 +73,16 @@ private:
     return resolve_path(open_.back().path, quoted.substr(1, quoted.size() - 2));
   }
 
-  void report(const Rule& rule, std::uint32_t i, std::string message, std::string help = {}) {
+  void report(const Rule& rule, std::uint32_t i, Message message, Message help = {}) {
     program_.diagnostics.push_back(finding(rule,
                                            program_.items[program_.statements[i].items_begin].span,
                                            std::move(message), std::move(help)));
   }
 
   /// Whether there are too many files of a kind to take another one; that is said once.
-  bool is_full(std::size_t& files, std::uint32_t i, std::string_view what) {
+  bool is_full(std::size_t& files, std::uint32_t i, const Row<Hole::Number>& too_many) {
     if (++files == most_files + 1)
-      report(rules::MissingFile, i, fmt::format("more than {} files are {}", most_files, what));
+      report(rules::MissingFile, i, too_many(most_files));
     return files > most_files;
   }
 
@@ -89,17 +91,16 @@ private:
     const auto identity = files_.identity(path);
     if (std::any_of(open_.begin(), open_.end(),
                     [&](const Open& file) { return file.identity == identity; })) {
-      report(rules::IncludeCycle, i, fmt::format("`{}` includes itself", path),
-             "move what both files need into a third one");
+      report(rules::IncludeCycle, i, texts::IncludesItself(path), texts::MoveIntoThird());
       return;
     }
-    if (contains(taken_, identity) || is_full(included_, i, "included"))
+    if (contains(taken_, identity) || is_full(included_, i, texts::TooManyIncluded))
       return;
     const auto text = read(path, i);
     if (!text)
       return;
     if (auto refused = compiler::refuse_text(*text)) {
-      report(*refused->rule, i, fmt::format("`{}`: {}", path, refused->message));
+      report(*refused->rule, i, texts::InFile(path, refused->message));
       return;
     }
     const auto first = program_.statements.size();
@@ -115,37 +116,33 @@ private:
       if (is_declaration(statement.kind))
         continue;
       program_.diagnostics.push_back(finding(rules::IncludedStatement, statement.span,
-                                             "an included file may only contain declarations",
-                                             "move the statement into a sub"));
+                                             texts::OnlyDeclarations(), texts::MoveStatement()));
       return;
     }
   }
 
   std::optional<std::string> read(const std::string& path, std::uint32_t i) {
     auto text = files_.read(path);
-    if (!text)
+    if (!text) {
+      const auto shown = path.empty() ? "." : path;
+      const auto what = files_.obstacle(path);
       report(rules::MissingFile, i,
-             fmt::format("cannot read `{}`{}", path.empty() ? "." : path, obstacle(path)));
+             what.empty() ? texts::CannotRead(shown) : texts::CannotReadOther(shown, what));
+    }
     return text;
-  }
-
-  std::string obstacle(const std::string& path) {
-    const auto what = files_.obstacle(path);
-    return what.empty() ? what : fmt::format(": it is {}, not a file", what);
   }
 
   void use(std::uint32_t i) {
     const auto path = path_of(i);
     auto identity = files_.identity(path);
-    if (contains(taken_macros_, identity) || is_full(used_, i, "used"))
+    if (contains(taken_macros_, identity) || is_full(used_, i, texts::TooManyUsed))
       return;
     auto text = read(path, i);
     if (!text)
       return;
     const auto assembly = assembler::assemble(Source(path, *text));
     if (assembly.has_errors()) {
-      report(rules::BadMacroFile, i, fmt::format("`{}` has errors", path),
-             fmt::format("`orb check {}` shows them", path));
+      report(rules::BadMacroFile, i, texts::HasErrors(path), texts::CheckShows(path));
       return;
     }
     bool any = false;
@@ -160,8 +157,7 @@ private:
       program_.macros.push_back({intern(where), *macro.id, i});
     }
     if (!any)
-      report(rules::BadMacroFile, i, fmt::format("`{}` has no macro with a name and an id", path),
-             "write it like `.macro name id=40`");
+      report(rules::BadMacroFile, i, texts::NoMacro(path), texts::WriteLike(".macro name id=40"));
     program_.macro_files.push_back({path, *std::move(text)});
     taken_macros_.push_back(std::move(identity));
   }
@@ -201,12 +197,12 @@ std::string resolve_path(std::string_view from, std::string_view path) {
   return fmt::format("{}{}", whole.starts_with('/') ? "/" : "", fmt::join(parts, "/"));
 }
 
-std::string Files::obstacle(const std::string&) {
+Message Files::obstacle(const std::string&) {
   return {};
 }
 
-std::string Files::trouble(const std::string& path) {
-  return "cannot read " + path;
+Message Files::trouble(const std::string& path) {
+  return orb::texts::CannotRead(path);
 }
 
 std::string Files::identity(const std::string& path) {

@@ -1,5 +1,7 @@
 #include "testing/text/file_reader.h"
 
+#include "base/meant.h"
+
 #include <algorithm>
 
 // The balls of a room.
@@ -17,34 +19,24 @@ bool is_name(std::string_view text) {
 } // namespace
 
 void FileReader::read_ball(Cursor& cursor) {
-  TestBall ball;
-  ball.name.span = cursor.peek_span();
-  ball.name.text = std::string(cursor.word());
+  const auto span = cursor.peek_span();
+  const auto name = std::string(cursor.word());
   if (cursor.at_end())
-    return cursor.fail(rules::Syntax, "a ball needs a name and a program",
-                       "write it like `ball red red.orb at 60,0`");
-  if (!is_name(ball.name.text))
-    return cursor.fail_at(ball.name.span, rules::Value,
-                          "a ball name can only have letters, digits, `-` and `_`",
-                          "write it like `ball red red.orb`");
-  if (ball_called(ball.name.text))
-    return cursor.fail_at(ball.name.span, rules::Name,
-                          fmt::format("another ball is called `{}`", ball.name.text),
-                          "each ball needs its own name");
-  if (find_word<ExpectationInfo>(expectations, ball.name.text) != nullptr)
-    return cursor.fail_at(ball.name.span, rules::Name,
-                          fmt::format("`{}` is a reserved word in tests", ball.name.text),
-                          "give the ball another name");
-  read_file(cursor, ball.program);
-  if (cursor.take_word("at")) {
-    ball.start.place.x = cursor.number("x");
-    cursor.character(',', "a place is written `X,Y`, in centimetres");
-    ball.start.place.y = cursor.number("y");
-  }
-  if (!cursor.failed() && cursor.take_word("facing"))
-    ball.start.facing_deg = cursor.number("heading");
+    return cursor.fail(rules::Syntax, file_texts::BallTakes(),
+                       file_texts::WriteLike("ball red red.orb at 60,0"));
+  if (!is_name(name))
+    return cursor.fail_at(span, rules::Value, file_texts::BallNameLetters(),
+                          file_texts::WriteLike("ball red red.orb"));
+  if (ball_called(name))
+    return cursor.fail_at(span, rules::Name, file_texts::OtherBallCalled(name),
+                          file_texts::OwnName());
+  if (find_word<ExpectationInfo>(expectations, name) != nullptr || is_when(name) || is_join(name))
+    return cursor.fail_at(span, rules::Name, file_texts::ReservedInTests(name),
+                          file_texts::OtherBallName());
+  const auto values = cursor.read(std::span(info(LineWord::Ball).slots).subspan(1));
   if (!cursor.failed())
-    file_.balls.push_back(std::move(ball));
+    file_.balls.push_back(
+        {{name, span}, named(values[0]), {{values[1].least, values[1].most}, values[2].most}});
 }
 
 std::optional<std::size_t> FileReader::ball_called(std::string_view name) const {
@@ -65,9 +57,8 @@ bool FileReader::read_whose(Cursor& cursor, Expectation& one) {
   std::vector<std::string_view> names;
   for (const auto& ball : file_.balls)
     names.push_back(ball.name.text);
-  cursor.fail(rules::Word, fmt::format("`{}` is not a ball of this room", cursor.peek()),
-              did_you_mean(cursor.peek(), names,
-                           fmt::format("say which ball: {}", fmt::join(names, ", "))));
+  cursor.fail(rules::Word, file_texts::NotABallHere(cursor.peek()),
+              meant_or(cursor.peek(), names, file_texts::SayWhichBall(listed(names))));
   return false;
 }
 

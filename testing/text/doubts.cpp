@@ -1,10 +1,11 @@
 #include "testing/text/doubts.h"
 
+#include "base/cursor.h"
 #include "base/duration.h"
 #include "base/text/text.h"
-#include "testing/text/cursor.h"
 #include "testing/text/rephrase.h"
 #include "testing/text/rules.h"
+#include "testing/text/texts.h"
 
 #include <algorithm>
 #include <cmath>
@@ -36,7 +37,7 @@ public:
   }
 
 private:
-  Diagnostic& report(const Rule& rule, Span span, std::string message, std::string help = {}) {
+  Diagnostic& report(const Rule& rule, Span span, Message message, Message help = {}) {
     found_.push_back(finding(rule, span, std::move(message), std::move(help)));
     return found_.back();
   }
@@ -45,7 +46,7 @@ private:
 
   /// The line as it is to be written.
   static void write(Diagnostic& d, const Expectation& one, const std::string& line) {
-    d.help = fmt::format("write `{}`", line);
+    d.help = file_texts::Write(line);
     d.fix = Fix{d.help, {{one.span, line}}, Safety::Unsafe};
   }
 
@@ -60,24 +61,21 @@ private:
 
   void too_late(const Rule& rule, Span span, const Test& test, Duration time) {
     const auto line = fmt::format("for {}s", seconds_for(time));
-    auto& d = report(rule, span, "the run ends before that time",
-                     fmt::format("for a longer run, write `{}`", line));
+    auto& d = report(rule, span, file_texts::EndsBefore(), file_texts::WriteForLonger(line));
     if (source_.line(test.line).find(" for ") != std::string_view::npos)
       return; // of this test alone
     for (std::uint32_t n = 1; n <= source_.line_count(); ++n) {
-      std::vector<Diagnostic> ignored;
-      Cursor cursor(source_, n, ignored);
+      Cursor cursor(source_, n);
       const auto begin = cursor.offset();
       const auto word = cursor.word();
       if (word == info(LineWord::For).word) {
         cursor.word();
-        d.fix =
-            Fix{fmt::format("write `{}`", line), {{cursor.span_from(begin), line}}, Safety::Unsafe};
+        d.fix = Fix{file_texts::Write(line), {{cursor.span_from(begin), line}}, Safety::Unsafe};
         return;
       }
       if (word == info(LineWord::Test).word || n == source_.line_count()) {
         const auto at = source_.line_start(word == info(LineWord::Test).word ? n : 1);
-        d.fix = Fix{fmt::format("write `{}`", line),
+        d.fix = Fix{file_texts::Write(line),
                     {{{at, at}, line + std::string(line_end_of(source_.text()))}},
                     Safety::Unsafe};
         return;
@@ -92,9 +90,9 @@ private:
         one.when.kind != Of::AnyTime ||
         std::hypot(one.x, one.y) > (one.never ? one.by : 0)) // another place is worth a way
       return;
-    auto& d = report(rules::Start, one.span,
-                     one.never ? "the ball starts there, so this fails at once"
-                               : "the ball starts there, so this succeeds at once");
+    auto& d =
+        report(rules::Start, one.span,
+               one.never ? file_texts::StartsThereFails() : file_texts::StartsThereSucceeds());
     write(d, one, text_of(one) + " at end");
   }
 
@@ -114,7 +112,7 @@ private:
     auto line = text_of(one);
     const std::string_view moving = info(Word::Moving).word;
     line.replace(line.find(moving), moving.size(), info(Word::Resting).word);
-    write(report(rules::MovingAtEnd, one.span, "the ball is at rest at the end"), one, line);
+    write(report(rules::MovingAtEnd, one.span, file_texts::RestsAtEnd()), one, line);
   }
 
   std::string what_of(const Expectation& one) const {
@@ -146,10 +144,8 @@ private:
           !other.joined.empty() || other.order != Order::Free || other.lasts > Duration{} ||
           !covers(other.when, one.when) || what_of(other).empty() || what_of(other) != what_of(one))
         continue;
-      report(rules::Contradiction, one.span,
-             "this can never be met: another line forbids it at that time",
-             "change one of the two times")
-          .notes.push_back({other.span, "it is forbidden here"});
+      report(rules::Contradiction, one.span, file_texts::NeverMet(), file_texts::ChangeOneTime())
+          .notes.push_back({other.span, file_texts::ForbiddenHere()});
       return;
     }
   }
@@ -165,18 +161,16 @@ private:
 
   void check_stimuli() {
     for (std::uint32_t n = 1; n <= source_.line_count(); ++n) {
-      std::vector<Diagnostic> ignored;
-      Cursor cursor(source_, n, ignored);
+      Cursor cursor(source_, n);
       const auto begin = cursor.offset();
       if (!cursor.take_word("at"))
         continue;
       const auto time = parse_duration(cursor.word());
       const auto* test = test_of(n);
-      while (!cursor.at_end())
-        cursor.word();
+      cursor.take_rest();
       if (time && test != nullptr && *time >= test->bound)
-        report(rules::Bound, cursor.span_from(begin), "the run ends before that time",
-               "for a longer run, write a later time after `for`");
+        report(rules::Bound, cursor.span_from(begin), file_texts::EndsBefore(),
+               file_texts::LaterAfterWord(info(LineWord::For).word));
     }
   }
 

@@ -1,14 +1,15 @@
 #pragma once
 
+#include "base/cursor.h"
 #include "base/duration.h"
 #include "base/text/suggest.h"
 #include "base/text/text.h"
 #include "repair/repair.h"
 #include "spec/limits.h"
 #include "structured/text/words.h"
-#include "testing/text/cursor.h"
 #include "testing/text/rules.h"
 #include "testing/text/test_file.h"
+#include "testing/text/texts.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -17,13 +18,25 @@
 
 namespace orb::testing {
 
-inline constexpr std::int64_t most_times = 1'000'000'000;
-
 template <class Row>
 inline const Row* find_word(std::span<const Row> rows, std::string_view word) {
   const auto found =
       std::find_if(rows.begin(), rows.end(), [&](const Row& row) { return row.word == word; });
   return found == rows.end() ? nullptr : &*found;
+}
+
+/// A column of a table: its words.
+template <class Rows, class Row>
+std::vector<std::string_view> words_of(const Rows& rows, std::string_view Row::*column) {
+  std::vector<std::string_view> words;
+  for (const auto& row : rows)
+    words.push_back(row.*column);
+  return words;
+}
+
+/// `a, b, c`.
+inline std::string listed(const std::vector<std::string_view>& words) {
+  return fmt::format("{}", fmt::join(words, ", "));
 }
 
 /// What was written of an expectation's place in time and number.
@@ -59,29 +72,19 @@ private:
 
   void unknown_word(Cursor& cursor, std::string_view word);
 
-  template <class Rows>
-  static std::string words_of(const Rows& rows) {
-    std::vector<std::string_view> words;
-    for (const auto& row : rows)
-      words.push_back(row.word);
-    return fmt::format("{}", fmt::join(words, ", "));
-  }
-
   // The head.
 
-  void read_file(Cursor& cursor, std::optional<Named>& into);
+  void read_file(Cursor& cursor, const Slot& slot, std::optional<Named>& into);
 
-  static void read_file(Cursor& cursor, Named& into);
+  static Named named(const SlotValue& value);
 
-  void read_target(Cursor& cursor);
+  void read_target(Cursor& cursor, const SlotValue& value);
 
-  void read_firmware(Cursor& cursor);
+  void read_firmware(Cursor& cursor, const SlotValue& value);
 
-  void read_area(Cursor& cursor);
+  static std::optional<Seeds> read_seeds(Cursor& cursor, const SlotValue& value);
 
-  static std::optional<Seeds> read_seeds(Cursor& cursor);
-
-  static std::optional<Duration> read_bound(Cursor& cursor);
+  static std::optional<Duration> read_bound(Cursor& cursor, const SlotValue& value);
 
   // Rooms.
 
@@ -97,8 +100,6 @@ private:
   Test& current() { return file_.tests.back(); }
 
   void read_test(Cursor& cursor, Span span, std::uint32_t line);
-
-  void read_test_option(Cursor& cursor, Test& test);
 
   /// What only the whole file can say about a test.
   void complete(Test& test);
@@ -119,32 +120,13 @@ private:
 
   void read_operands(Cursor& cursor, Expectation& one);
 
-  static void take(Expectation& one, Cursor::Range range);
+  static void take(Cursor& cursor, Expectation& one, const Slot& slot, const SlotValue& value);
 
-  void read_print(Cursor& cursor, Expectation& one);
+  static void take_match(Cursor& cursor, Expectation& one, const SlotValue& value);
 
-  static void read_by(Cursor& cursor, Expectation& one, std::string_view unit, double most);
-
-  void read_near(Cursor& cursor, Expectation& one);
-
-  static void read_beyond(Cursor& cursor, Expectation& one);
-
-  static void read_name(Cursor& cursor, Expectation& one, std::string_view what);
-
-  static vm::Color color_of(std::uint32_t rgb);
-
-  void read_color(Cursor& cursor, Expectation& one);
-
-  /// `#` without six digits: a comment may follow a colour, but here the colour itself is missing.
-  static void read_bad_hex(Cursor& cursor);
-
-  static void read_marker(Cursor& cursor, Expectation& one);
+  static void take_color(Cursor& cursor, Expectation& one, const SlotValue& value);
 
   void read_error(Cursor& cursor, Expectation& one);
-
-  static void read_below(Cursor& cursor, Expectation& one);
-
-  static void read_variable(Cursor& cursor, Expectation& one);
 
   // How often and when.
 

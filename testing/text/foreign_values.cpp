@@ -1,8 +1,8 @@
 #include "base/text/text.h"
 #include "repair/arrange.h"
 #include "repair/units.h"
-#include "testing/text/cursor.h"
 #include "testing/text/foreign.h"
+#include "testing/text/vocabulary.h"
 
 #include <algorithm>
 #include <array>

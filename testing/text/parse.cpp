@@ -1,6 +1,7 @@
 #include "testing/text/file_reader.h"
 
 #include "base/fixes.h"
+#include "base/meant.h"
 #include "testing/text/doubts.h"
 #include "testing/text/rephrase.h"
 
@@ -27,8 +28,7 @@ TestFile FileReader::read() {
 }
 
 std::string_view FileReader::first_word(std::uint32_t line) {
-  std::vector<Diagnostic> ignored;
-  return Cursor(source_, line, ignored).word();
+  return Cursor(source_, line).word();
 }
 
 Test FileReader::new_test() const {
@@ -39,7 +39,7 @@ Test FileReader::new_test() const {
 }
 
 void FileReader::read_line(std::uint32_t line) {
-  Cursor cursor(source_, line, file_.diagnostics);
+  Cursor cursor(source_, line, file_.diagnostics, rules::Syntax, rules::Value);
   if (cursor.at_end())
     return;
   if (prints_ && cursor.peek_char() == '"') {
@@ -54,40 +54,43 @@ void FileReader::read_line(std::uint32_t line) {
   const auto span = cursor.peek_span();
   cursor.word();
   if (row->stands == Stands::Head && has_tests_ && !file_.tests.empty()) {
-    cursor.fail_at(span, rules::Place, fmt::format("`{}` after a test", word),
-                   "move it above the first `test`");
+    cursor.fail_at(span, rules::Place, file_texts::AfterATest(word), file_texts::MoveAbove());
     file_.diagnostics.back().fix = move_up(line);
     return;
   }
   if (row->stands == Stands::InTest && file_.tests.empty())
-    return cursor.fail_at(span, rules::Place, fmt::format("`{}` before the first test", word),
-                          "move it below the `test` it belongs to");
+    return cursor.fail_at(span, rules::Place, file_texts::BeforeFirstTest(word),
+                          file_texts::MoveBelow());
   read_row(static_cast<LineWord>(row - line_words.data()), cursor, span, line);
 }
 
 Fix FileReader::move_up(std::uint32_t line) const {
   const auto begin = source_.line_start(file_.tests.front().line);
   const auto text = fmt::format("{}{}", trim(source_.line(line)), line_end_of(source_.text()));
-  return {"move the line",
+  return {file_texts::MoveLine(),
           {{{begin, begin}, text}, {{source_.line_start(line), source_.line_start(line + 1)}, {}}},
           Safety::Unsafe};
 }
 
 void FileReader::read_row(LineWord word, Cursor& cursor, Span span, std::uint32_t line) {
+  const auto& slots = info(word).slots;
+  const auto value = [&] { return cursor.read(slots[0]); };
   switch (word) {
-  case LineWord::Program: read_file(cursor, file_.program); break;
+  case LineWord::Program: read_file(cursor, slots[0], file_.program); break;
   case LineWord::Ball: read_ball(cursor); break;
   case LineWord::With:
     do
-      read_file(cursor, file_.with.emplace_back());
+      file_.with.push_back(named(value()));
     while (!cursor.at_end() && !cursor.failed());
     break;
-  case LineWord::Course: read_file(cursor, file_.course); break;
-  case LineWord::Target: read_target(cursor); break;
-  case LineWord::Firmware: read_firmware(cursor); break;
-  case LineWord::Area: read_area(cursor); break;
-  case LineWord::Seeds: seeds_ = read_seeds(cursor); break;
-  case LineWord::For: bound_ = read_bound(cursor); break;
+  case LineWord::Course: read_file(cursor, slots[0], file_.course); break;
+  case LineWord::Target: read_target(cursor, value()); break;
+  case LineWord::Firmware: read_firmware(cursor, value()); break;
+  case LineWord::Area:
+    file_.target.area = value().which == 0 ? spec::Area::Ram : spec::Area::Flash;
+    break;
+  case LineWord::Seeds: seeds_ = read_seeds(cursor, value()); break;
+  case LineWord::For: bound_ = read_bound(cursor, value()); break;
   case LineWord::Test: return read_test(cursor, span, line);
   case LineWord::Expect: return read_expectation(cursor, span, line, false);
   case LineWord::Never: return read_expectation(cursor, span, line, true);
@@ -98,18 +101,14 @@ void FileReader::read_row(LineWord word, Cursor& cursor, Span span, std::uint32_
 
 void FileReader::end_of_line(Cursor& cursor) {
   if (!cursor.failed() && !cursor.at_end())
-    cursor.fail(rules::Syntax, fmt::format("unexpected `{}`", cursor.peek()),
-                "comments start with `#`");
+    cursor.fail(rules::Syntax, file_texts::Unexpected(cursor.peek()), file_texts::CommentsStart());
 }
 
 void FileReader::read_stimulus(Cursor& cursor, std::string_view word, std::uint32_t line) {
   const bool known = word == "at" || find_word<vm::StimulusInfo>(vm::stimulus_words, word);
   if (!known && !parse_duration(word))
     return unknown_word(cursor, word);
-  const auto from = cursor.offset();
-  while (!cursor.at_end())
-    cursor.word();
-  const auto span = cursor.span_from(from);
+  const auto span = cursor.take_rest();
   vm::StimulusScript script;
   vm::read_stimulus_line(source_, line, script);
   file_.diagnostics.insert(file_.diagnostics.end(), script.diagnostics.begin(),
@@ -129,20 +128,16 @@ void FileReader::read_stimulus(Cursor& cursor, std::string_view word, std::uint3
 }
 
 void FileReader::unknown_word(Cursor& cursor, std::string_view word) {
-  std::vector<std::string_view> known;
-  for (const auto& row : line_words)
-    known.push_back(row.word);
+  if (find_word<ExpectationInfo>(expectations, word) != nullptr)
+    return cursor.fail(
+        rules::Word, file_texts::CannotStart(word),
+        file_texts::WriteEither(fmt::format("expect {}", word), fmt::format("never {}", word)));
+  auto known = words_of(line_words, &WordInfo::word);
+  const auto lines = listed(known);
   for (const auto& row : vm::stimulus_words)
     known.push_back(row.word);
-  for (const auto& row : expectations)
-    if (row.word == word)
-      return cursor.fail(rules::Word, fmt::format("a line cannot start with `{}`", word),
-                         fmt::format("write `expect {}` or `never {}`", word, word));
-  cursor.fail(
-      rules::Word, fmt::format("unknown word `{}`", word),
-      did_you_mean(word, known,
-                   fmt::format("a line starts with {}, or with a stimulus such as `at 1s shake`",
-                               words_of(line_words))));
+  cursor.fail(rules::Word, file_texts::UnknownWord(word),
+              meant_or(word, known, file_texts::LinesStartWith(lines)));
 }
 
 void FileReader::complete(Test& test) {
@@ -171,17 +166,17 @@ void FileReader::complete(Test& test) {
 namespace {
 
 std::vector<std::string_view> all_words() {
-  std::vector<std::string_view> words{"at", "by", "times", "to", "points", "macro", "end"};
-  for (const auto& row : line_words)
-    words.push_back(row.word);
-  for (const auto& row : expectations)
-    words.push_back(row.word);
-  for (const auto& row : when_words)
-    words.push_back(row.word);
-  for (const auto& row : join_words)
-    words.push_back(row.word);
-  for (const auto& row : vm::stimulus_words)
-    words.push_back(row.word);
+  auto words = operand_words();
+  words.push_back("end");
+  const auto add = [&](const auto& rows) {
+    for (const auto& row : rows)
+      words.push_back(row.word);
+  };
+  add(line_words);
+  add(expectations);
+  add(when_words);
+  add(join_words);
+  add(vm::stimulus_words);
   const auto colours = structured::colour_names();
   words.insert(words.end(), colours.begin(), colours.end());
   return words;
@@ -194,8 +189,7 @@ Elsewhere look_elsewhere(const Source& source) {
   for (const auto* word : {"insid", "reach", "zone", "stay"}) // somebody thinks of zones
     found.may_have_zones = found.may_have_zones || source.text().find(word) != std::string::npos;
   for (std::uint32_t n = 1; n <= source.line_count(); ++n) {
-    std::vector<Diagnostic> ignored;
-    Cursor cursor(source, n, ignored);
+    Cursor cursor(source, n);
     found.has_texts = found.has_texts || cursor.peek_char() == '"';
     const auto word = cursor.word();
     found.has_course = found.has_course || word == info(LineWord::Course).word;

@@ -5,7 +5,6 @@
 #include "base/text/text.h"
 #include "repair/units.h"
 #include "spec/ball.h"
-#include "testing/text/cursor.h"
 #include "testing/text/foreign.h"
 #include "testing/text/vocabulary.h"
 #include "vm/stimulus.h"
@@ -623,38 +622,32 @@ std::optional<Tokens> close_text(const Tokens& line) {
 }
 
 /// What a stimulus takes, as its row says.
-struct Takes {
-  std::vector<std::string> names;
+std::vector<Operand> operands_of(const vm::StimulusInfo& row) {
   std::vector<Operand> operands;
-};
-
-Takes takes_of(const vm::StimulusInfo& row) {
-  Takes takes;
-  for (const auto name : words_in(row.operands))
-    takes.names.push_back(lower(name));
-  for (const auto& name : takes.names) {
+  for (const auto& slot : row.slots) {
     Operand operand;
-    operand.name = name;
-    operand.most = UINT8_MAX;
-    if (name == "on|off") {
+    operand.name = slot.called->english;
+    operand.usual = slot.usual;
+    if (slot.kind == slot::Kind::Choice) {
       operand.words = {"on", "off"};
       operand.usual = "on";
-    } else if (name == "time") {
+    } else if (slot.kind == slot::Kind::Time) {
       operand.counts = Counts::Milliseconds;
-      operand.usual = "800ms";
-    } else if (name == "heading") {
+      operand.most = UINT8_MAX;
+    } else if (slot.most == full_circle - 1) {
       operand.counts = Counts::Degrees;
-      operand.most = full_circle - 1;
+      operand.most = slot.most;
       operand.words = {"0", "90", "180", "270"};
-    } else if (name == "pitch" || name == "roll" || name == "rate") {
+    } else if (slot.least == -slot.most) {
       operand.counts = Counts::Degrees;
       operand.least = -full_circle;
-      operand.usual = name == "roll" ? "0" : "";
-    } else if (name != "strength" && name != "speed" && row.word != "rgb")
-      operand.most = 0; // no part of a byte
-    takes.operands.push_back(std::move(operand));
+      operand.most = UINT8_MAX;
+    } else {
+      operand.most = slot.most == UINT8_MAX ? slot.most : 0; // else no part of a byte
+    }
+    operands.push_back(std::move(operand));
   }
-  return takes;
+  return operands;
 }
 
 /// `at TIME EVENT VALUES`, in any order. A direction or a strength that lacks is that of the
@@ -702,13 +695,13 @@ std::optional<Rephrased> arrange_stimulus(const Tokens& line) {
   for (auto& value : values)
     if (left && value.is_number())
       value.text.insert(0, "-");
-  auto takes = takes_of(*row);
-  const bool aims = takes.names.size() == 2 && takes.names[0] == "heading";
+  auto operands = operands_of(*row);
+  const bool aims = operands.size() == 2 && operands[0].name == "heading";
   if (aims) {
     const auto usual = row->example.substr(row->example.find(row->word) + row->word.size() + 1);
     const auto between = usual.find(' ');
-    takes.operands[0].usual = usual.substr(0, between);
-    takes.operands[1].usual = usual.substr(between + 1);
+    operands[0].usual = usual.substr(0, between);
+    operands[1].usual = usual.substr(between + 1);
     const auto value = values.size() == 1 && values[0].is_number()
                            ? parse_number<int>(values[0].text).value_or(0)
                            : 0;
@@ -719,7 +712,7 @@ std::optional<Rephrased> arrange_stimulus(const Tokens& line) {
                        false,
                        fmt::format("{} {} {}", head, values[0].text, usual.substr(between + 1))};
   }
-  const auto arranged = repair::arrange(values, takes.operands, {});
+  const auto arranged = repair::arrange(values, operands, {});
   if (!arranged || !arranged->wait.empty()) {
     std::string plain; // `battery(6.4);`
     for (const auto& value : values)

@@ -24,32 +24,28 @@ bool FileReader::is_times(Cursor& cursor) {
 
 void FileReader::read_times(Cursor& cursor, Expectation& one, Said& said) {
   const auto from = cursor.offset();
-  one.times.least = static_cast<std::uint64_t>(cursor.whole("count", 0, most_times));
-  one.times.most = one.times.least;
+  const auto count = [&] { return static_cast<std::uint64_t>(cursor.read(slot::count).most); };
+  one.times.least = one.times.most = count();
   if (cursor.take_word("to"))
-    one.times.most = static_cast<std::uint64_t>(cursor.whole("count", 0, most_times));
+    one.times.most = count();
   if (!cursor.failed() && !cursor.take_word("times"))
-    return cursor.fail(rules::Syntax, "missing `times`", "write it like `1 to 6 times`");
+    return cursor.fail(rules::Syntax, file_texts::Missing("times"),
+                       file_texts::WriteLike("1 to 6 times"));
   said.times = cursor.span_from(from);
   if (one.times.most < one.times.least)
-    cursor.fail_at(said.times, rules::Value, "the count is reversed",
-                   "write the smaller value first");
+    cursor.fail_at(said.times, rules::Value, file_texts::Reversed(file_texts::Count()),
+                   file_texts::SmallerFirst());
 }
 
 void FileReader::read_when(Cursor& cursor, Expectation& one, Said& said) {
   const auto from = cursor.offset();
-  if (cursor.take_word("within"))
-    one.when = {When::Kind::Within, {}, cursor.time()};
-  else if (cursor.take_word("during")) {
-    const auto [begin, end] = cursor.times();
-    one.when = {When::Kind::During, begin, end};
-  } else {
-    cursor.take_word("at");
-    if (cursor.take_word("end"))
-      one.when = {When::Kind::AtEnd, {}, {}};
-    else
-      one.when = {When::Kind::At, {}, cursor.time()};
-  }
+  const auto* const row = find_word<WordInfo>(when_words, cursor.word());
+  const auto value = cursor.read(row->slots[0]);
+  one.when = {row == &info(WhenWord::Within)   ? When::Kind::Within
+              : row == &info(WhenWord::During) ? When::Kind::During
+              : value.which == 1               ? When::Kind::AtEnd
+                                               : When::Kind::At,
+              value.from, value.to};
   said.when = cursor.span_from(from);
 }
 
@@ -57,20 +53,17 @@ void FileReader::read_joined(Cursor& cursor, Expectation& one, const Said& said)
   const auto span = cursor.peek_span();
   cursor.word();
   if (said.when.size() > 0 || one.lasts > Duration{})
-    return cursor.fail_at(span, rules::Syntax, "`and` after a time",
-                          "write everything joined by `and` first, then `for` and the time");
+    return cursor.fail_at(span, rules::Syntax, file_texts::AndAfterTime(), file_texts::JoinFirst());
   if (info(one.word).kind != Kind::State && info(one.word).kind != Kind::Event)
-    return cursor.fail_at(span, rules::When,
-                          fmt::format("`{}` cannot be joined", info(one.word).word),
-                          "write it on a separate line");
+    return cursor.fail_at(span, rules::When, file_texts::CannotBeJoined(info(one.word).word),
+                          file_texts::OnSeparateLine());
   Expectation state;
   const auto word_span = cursor.peek_span();
   if (!read_what(cursor, state))
     return;
   if (info(state.word).kind != Kind::State)
-    return cursor.fail_at(
-        word_span, rules::When, fmt::format("`{}` is not a state", info(state.word).word),
-        "`and` must be followed by a state, such as `color red` or `resting`; events go before it");
+    return cursor.fail_at(word_span, rules::When, file_texts::NotAState(info(state.word).word),
+                          file_texts::JoinsStates());
   read_operands(cursor, state);
   one.joined.push_back(std::move(state));
 }
@@ -78,18 +71,17 @@ void FileReader::read_joined(Cursor& cursor, Expectation& one, const Said& said)
 void FileReader::read_lasts(Cursor& cursor, Expectation& one) {
   const auto from = cursor.offset();
   cursor.word();
-  const auto time = cursor.time();
+  const auto time = cursor.read(info(JoinWord::Lasts).slots[0]).to;
   if (cursor.failed())
     return;
   const auto span = cursor.span_from(from);
   const auto& row = info(one.word);
   if (row.kind != Kind::State)
-    return cursor.fail_at(span, rules::When,
-                          fmt::format("`{}` is an event and has no duration", row.word),
-                          "remove `for` and its time");
+    return cursor.fail_at(span, rules::When, file_texts::NoDuration(row.word),
+                          file_texts::RemoveLasts());
   if (one.lasts > Duration{} || time == Duration{})
-    return cursor.fail_at(span, rules::Value, "`for` takes a single time, greater than 0",
-                          "write it like `for 2s`");
+    return cursor.fail_at(span, rules::Value, file_texts::LastsOneTime(),
+                          file_texts::WriteLike("for 2s"));
   one.lasts = time;
 }
 
@@ -99,30 +91,25 @@ void FileReader::read_order(Cursor& cursor, Expectation& one, Said& said) {
   one.order = is_after ? Order::After : Order::Before;
   Expectation other;
   if (cursor.at_end())
-    return cursor.fail(rules::Syntax, fmt::format("`{}` what?", is_after ? "after" : "before"),
-                       "write what happens, or a state: `print \"2\"`, `color red`, `reach goal`");
+    return cursor.fail(rules::Syntax, file_texts::What(is_after ? "after" : "before"),
+                       file_texts::WhatHappens());
   const auto word_span = cursor.peek_span();
   if (!read_what(cursor, other))
     return;
   if (const auto& row = info(other.word); row.kind != Kind::State && row.kind != Kind::Event)
-    return cursor.fail_at(
-        word_span, rules::When, fmt::format("missing event after `{}`", row.word),
-        "write what happens, or a state: `print \"2\"`, `color red`, `reach goal`");
+    return cursor.fail_at(word_span, rules::When, file_texts::NeitherEventNorState(row.word),
+                          file_texts::WhatHappens());
   read_operands(cursor, other);
   while (!cursor.failed() && cursor.peek() == info(JoinWord::And).word)
     read_joined(cursor, other, {});
   if (!cursor.failed() && cursor.peek() == info(JoinWord::Lasts).word)
     read_lasts(cursor, other);
   if (!cursor.failed() && is_when(cursor.peek()))
-    return cursor.fail(rules::When, "misplaced time",
-                       is_after ? "write it before `after`; it is counted from there"
-                                : "`before` takes no time; write that on a separate line");
-  if (!cursor.failed() && one.lag) {
-    if (!cursor.take_word("by"))
-      return cursor.fail(rules::Syntax, "missing `by` and a tolerance for the time",
-                         "write it like `by 200ms`");
-    one.lag_by = cursor.time();
-  }
+    return cursor.fail(rules::When, file_texts::MisplacedTime(),
+                       is_after ? file_texts::TimeBeforeAfter()
+                                : file_texts::BeforeTakesNoTimeHere());
+  if (!cursor.failed() && one.lag)
+    one.lag_by = cursor.read(slot::lag_by).to;
   said.order = cursor.span_from(from);
   one.other = std::make_shared<const Expectation>(std::move(other));
 }
@@ -144,7 +131,7 @@ void FileReader::finish(Cursor& cursor, Expectation& one, Span span, std::uint32
     else if (word == info(JoinWord::After).word || word == info(JoinWord::Before).word)
       read_order(cursor, one, said);
     else if (is_lag(cursor) && said.when.size() == 0)
-      one.lag = cursor.time();
+      one.lag = cursor.read(slot::time).to;
     else
       left_over(cursor, one);
   }
@@ -163,16 +150,14 @@ void FileReader::check_order(Cursor& cursor, const Expectation& one, const Said&
     return;
   const auto& row = info(one.word);
   if (row.kind != Kind::State && row.kind != Kind::Event)
-    return cursor.fail_at(said.order, rules::When,
-                          fmt::format("`{}` takes no `after` or `before`", row.word),
-                          "remove that");
+    return cursor.fail_at(said.order, rules::When, file_texts::TakesNoOrder(row.word),
+                          file_texts::RemoveThat());
   if (one.order == Order::Before && said.when.size() > 0)
-    return cursor.fail_at(said.when, rules::When, "`before` takes no time",
-                          "write that on a separate line");
+    return cursor.fail_at(said.when, rules::When, file_texts::BeforeTakesNoTime(),
+                          file_texts::ThatOnSeparateLine());
   if (one.lag && (one.never || said.when.size() > 0 || one.order == Order::Before))
-    cursor.fail_at(said.order, rules::When,
-                   "an exact time cannot be combined with `never`, `before` or another time",
-                   "write it like `expect print \"3\" 1s after print \"2\" by 200ms`");
+    cursor.fail_at(said.order, rules::When, file_texts::ExactTimeAlone(),
+                   file_texts::WriteLike("expect print \"3\" 1s after print \"2\" by 200ms"));
 }
 
 void FileReader::left_over(Cursor& cursor, const Expectation& one) {
@@ -182,54 +167,50 @@ void FileReader::left_over(Cursor& cursor, const Expectation& one) {
   for (const auto& row : join_words)
     known.push_back(row.word);
   const auto& row = info(one.word);
-  cursor.fail(rules::Syntax, fmt::format("unexpected `{}`", cursor.peek()),
-              did_you_mean(cursor.peek(), known,
-                           row.operands.empty()
-                               ? fmt::format("`{}` is used alone or with a time", row.word)
-                               : fmt::format("write `{} {}`", row.word, row.operands)));
+  cursor.fail(rules::Syntax, file_texts::Unexpected(cursor.peek()),
+              meant_or(cursor.peek(), known,
+                       row.slots.empty() ? file_texts::UsedAlone(row.word)
+                                         : file_texts::WriteLike(usage(row.word, row.slots))));
 }
 
 void FileReader::check_when(Cursor& cursor, const Expectation& one, const Said& said, Span first) {
   using Of = When::Kind;
   const auto& row = info(one.word);
-  const auto wrong = [&](Span span, std::string message, std::string help) {
+  const auto wrong = [&](Span span, Message message, Message help) {
     cursor.fail_at(span, rules::When, std::move(message), std::move(help));
   };
   const auto when = one.when.kind;
   if (said.times.size() > 0 && row.kind != Kind::Event)
-    return wrong(said.times, fmt::format("`{}` cannot be counted", row.word), "remove the count");
+    return wrong(said.times, file_texts::CannotBeCounted(row.word), file_texts::RemoveCount());
   if (one.never && said.times.size() > 0)
-    return wrong(said.times, "`never` takes no count", "write `expect … 0 times`, or remove it");
+    return wrong(said.times, file_texts::TakesNoCount("never"), file_texts::WriteNoTimes());
   if (one.never && when == Of::Within)
-    return wrong(said.when, "`never` covers the whole run, but `within` covers a single moment",
-                 "for a part of the run write `during 0s..10s`");
+    return wrong(said.when, file_texts::NeverCoversAll(), file_texts::PartOfRun());
   switch (row.kind) {
   case Kind::State: return;
   case Kind::Stay:
     if (when != Of::AnyTime && when != Of::During)
-      wrong(said.when, "`stay` covers every moment",
-            "remove the time, or write `during 2s..3s`; for one moment write `inside`");
+      wrong(said.when, file_texts::StayCoversAll(), file_texts::StayOrInside());
     return;
   case Kind::Event:
     if (when == Of::At || when == Of::AtEnd)
-      wrong(said.when, fmt::format("`{}` is an event, not a state", row.word),
-            "write `within 3s` or `during 2s..3s`");
+      wrong(said.when, file_texts::EventNotState(row.word),
+            file_texts::WriteEither("within 3s", "during 2s..3s"));
     return;
   case Kind::Output:
     if (when != Of::AnyTime)
-      wrong(said.when, "`prints` covers everything that is printed", "remove the time");
+      wrong(said.when, file_texts::PrintsCoversAll(), file_texts::RemoveTime());
     return;
   case Kind::End:
     if (when != Of::Within)
-      wrong(said.when.size() > 0 ? said.when : first, "`end` needs `within`",
-            "write it like `expect end within 10s`");
+      wrong(said.when.size() > 0 ? said.when : first, file_texts::EndNeedsWithin(),
+            file_texts::WriteLike("expect end within 10s"));
     return;
   case Kind::Final:
     if (when != Of::AtEnd && when != Of::AnyTime)
-      wrong(said.when, fmt::format("`{}` is only known at the end of the run", row.word),
-            "remove the time, or write `at end`");
+      wrong(said.when, file_texts::KnownAtEnd(row.word), file_texts::RemoveTimeOrAtEnd());
     else if (one.word == Word::Variable && when != Of::AtEnd)
-      wrong(one.name.span, "a variable is only known at the end of the run", "add `at end`");
+      wrong(one.name.span, file_texts::VariableKnownAtEnd(), file_texts::Add("at end"));
     return;
   }
 }

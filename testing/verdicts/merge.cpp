@@ -53,7 +53,7 @@ public:
 
   Miss miss(const Value& json) {
     return {static_cast<std::uint32_t>(count(json, "line")), text(json, "expected"),
-            text(json, "seen"), text_or_none(json, "where")};
+            Message::as_is(text(json, "seen")), text_or_none(json, "where")};
   }
 
   CaseResult one_case(const Value& json) {

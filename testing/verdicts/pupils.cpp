@@ -1,6 +1,7 @@
 #include "testing/verdicts/pupils.h"
 
 #include "base/text/text.h"
+#include "testing/texts.h"
 
 #include <fmt/format.h>
 
@@ -66,10 +67,10 @@ std::string misses(const CaseResult& one, const Speech& speech) {
 
 std::string pupil_page(std::string_view name, const Table::Row& row,
                        const std::map<const GroupResult*, Shown>& shown, const Speech& speech) {
-  const auto say = [&](std::string_view english) { return escape_markup(speech.say(english)); };
+  const auto say = [&](const Message& message) { return escape_markup(speech.say(message)); };
   auto out = head(name, page_style, speech) +
              fmt::format("<h1>{}</h1>\n<p class=\"points\">{}</p>\n", escape_markup(name),
-                         say(fmt::format("{} of {} points", row.points, row.points_of)));
+                         say(texts::PointsOf(row.points, row.points_of)));
   std::string told; // of a program that cannot run every test says the same
   for (const auto* cell : row.cells) {
     if (cell == nullptr || cell->cases.empty())
@@ -78,12 +79,12 @@ std::string pupil_page(std::string_view name, const Table::Row& row,
     out += fmt::format(
         "<section class=\"{}\"><h2><span class=\"sign\">{}</span> {} <span class=\"dim\">{}</span>"
         "</h2>\n",
-        to_string(cell->verdict()), passed ? "✓" : "✗", say(cell->test),
-        say(fmt::format("{} of {} points", passed ? cell->points : 0, cell->points)));
+        to_string(cell->verdict()), passed ? "✓" : "✗", say(Message::as_is(cell->test)),
+        say(texts::PointsOf(passed ? cell->points : 0, cell->points)));
     if (const auto at = shown.find(cell); at != shown.end()) {
       const auto& [picture, replay] = at->second;
       const auto image =
-          fmt::format("<img src=\"{}\" alt=\"{}\">", inside(picture), say("the path of the ball"));
+          fmt::format("<img src=\"{}\" alt=\"{}\">", inside(picture), say(texts::PathOfBall()));
       out +=
           replay.empty() ? image + "\n" : fmt::format("<a href=\"../{}\">{}</a>\n", replay, image);
     }
@@ -99,20 +100,21 @@ std::string pupil_page(std::string_view name, const Table::Row& row,
 
 std::string certificates(const std::vector<std::string>& names, const Table& table,
                          const Speech& speech) {
-  const auto say = [&](std::string_view english) { return escape_markup(speech.say(english)); };
+  const auto say = [&](const Message& message) { return escape_markup(speech.say(message)); };
   std::string done;
   for (std::size_t i = 0; i < std::min(table.tests.size(), most_on_sheet); ++i)
-    done += fmt::format("<li><span class=\"sign\">✓</span> {}</li>", say(table.tests[i]));
+    done += fmt::format("<li><span class=\"sign\">✓</span> {}</li>",
+                        say(Message::as_is(table.tests[i])));
   if (table.tests.size() > most_on_sheet)
     done += "<li>…</li>";
-  auto out = head(speech.say("Certificates"), sheet_style, speech);
+  auto out = head(speech.say(texts::Certificates()), sheet_style, speech);
   for (const auto& name : names)
     out += fmt::format(
         "<section><div class=\"frame\"><h1>{}</h1>\n<p class=\"name\">{}</p>\n<p>{}</p>\n"
         "<ul>{}</ul>\n<div class=\"sheet-foot\"><span>{}</span><span>{}</span></div></div>"
         "</section>\n",
-        say("Certificate"), escape_markup(name),
-        say("has programmed a robot that passes all tests:"), done, say("Date"), say("Signature"));
+        say(texts::Certificate()), escape_markup(name), say(texts::HasPassed()), done,
+        say(texts::Date()), say(texts::Signature()));
   return out + "</body></html>\n";
 }
 

@@ -34,7 +34,7 @@ std::string render_text(const Results& results, Listing listing, Style style,
 /// The sentence: `3 of 4 tests passed, 5 of 7 points, 604 runs`.
 std::string render_summary(const Results& results, const Say& say = in_english);
 /// Schema orb.test/1 (docs/testing.md).
-std::string render_json(const Results& results);
+std::string render_json(const Results& results, const Say& say = &in_english);
 /// For CI servers: JUnit XML, as the published schemas want it.
 std::string render_junit(const Results& results);
 /// Annotations of GitHub Actions: a line for each failure.

@@ -25,7 +25,8 @@ std::string story(const GroupResult& group, const CaseResult& one) {
     return one.problem;
   std::string out;
   for (const auto& miss : one.misses) {
-    out += fmt::format("{}:{}: {}: {}", group.file, miss.line, miss.expected, miss.seen);
+    out +=
+        fmt::format("{}:{}: {}: {}", group.file, miss.line, miss.expected, in_english(miss.seen));
     out += miss.where.empty() ? "\n" : fmt::format(" ({})\n", miss.where);
   }
   return one.again.empty() ? out : out + fmt::format("rerun: {}\n", one.again);
@@ -47,7 +48,7 @@ std::string short_story(const CaseResult& one) {
     return std::string(to_string(one.verdict));
   if (one.verdict == Verdict::Error)
     return first_line(one.problem);
-  return fmt::format("{}: {}", one.misses.front().expected, one.misses.front().seen);
+  return fmt::format("{}: {}", one.misses.front().expected, in_english(one.misses.front().seen));
 }
 
 std::string test_case(const GroupResult& group, const CaseResult& one) {

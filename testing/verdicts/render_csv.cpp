@@ -1,6 +1,7 @@
 // Results for spreadsheets.
 
 #include "base/text/utf8.h"
+#include "testing/texts.h"
 #include "testing/verdicts/render.h"
 #include "testing/verdicts/table.h"
 
@@ -45,11 +46,11 @@ std::string problem(const Table::Row& row) {
 std::string render_csv(const Results& results, const Speech& speech) {
   const auto table = whole_table(results);
   const std::string comma = speech.code == "en" ? "," : ";";
-  const auto word = [&](std::string_view english) { return field(speech.say(english)); };
-  auto out = std::string(byte_order_mark) + word("program");
+  const auto word = [&](const Message& message) { return field(speech.say(message)); };
+  auto out = std::string(byte_order_mark) + word(texts::Program());
   for (const auto& test : table.tests)
-    out += comma + word(test);
-  for (const auto* head : {"points", "of", "problem"})
+    out += comma + word(Message::as_is(test));
+  for (const auto& head : {texts::Points(), texts::Of(), texts::Problem()})
     out += comma + word(head);
   out += "\r\n";
   for (const auto& row : table.rows) {

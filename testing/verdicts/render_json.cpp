@@ -12,7 +12,7 @@ std::string dump(const Json& json) {
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
-Json case_json(const CaseResult& one) {
+Json case_json(const CaseResult& one, const Say& say) {
   Json json;
   json["seed"] = one.seed;
   json["verdict"] = to_string(one.verdict);
@@ -24,7 +24,7 @@ Json case_json(const CaseResult& one) {
     Json entry;
     entry["line"] = miss.line;
     entry["expected"] = miss.expected;
-    entry["seen"] = miss.seen;
+    entry["seen"] = say(miss.seen);
     if (!miss.where.empty())
       entry["where"] = miss.where;
     json["misses"].push_back(std::move(entry));
@@ -53,7 +53,7 @@ std::string group_head(const GroupResult& group) {
 
 } // namespace
 
-std::string render_json(const Results& results) {
+std::string render_json(const Results& results, const Say& say) {
   const auto totals = totals_of(results);
   std::string out = fmt::format("{{\"schema\":\"orb.test/1\",\n\"cases\":{},\n", results.cases);
   if (!results.shards.empty()) {
@@ -69,7 +69,7 @@ std::string render_json(const Results& results) {
     const auto& group = results.groups[i];
     out += (i == 0 ? "\n" : ",\n") + group_head(group);
     for (std::size_t k = 0; k < group.cases.size(); ++k)
-      out += (k == 0 ? "\n" : ",\n") + dump(case_json(group.cases[k]));
+      out += (k == 0 ? "\n" : ",\n") + dump(case_json(group.cases[k], say));
     out += "]}";
   }
   const Json summary{{"tests", totals.tests},   {"passed", totals.tests_passed},

@@ -1,5 +1,5 @@
-#include "base/text/text.h"
 #include "base/text/utf8.h"
+#include "testing/texts.h"
 #include "testing/verdicts/render.h"
 #include "testing/verdicts/table.h"
 
@@ -32,7 +32,7 @@ std::string padded(std::string_view text, std::size_t width) {
 
 /// Words of a language, all as wide as the widest.
 template <std::size_t N>
-std::array<std::string, N> aligned(const std::array<std::string_view, N>& words, const Say& say) {
+std::array<std::string, N> aligned(const std::array<Message, N>& words, const Say& say) {
   std::array<std::string, N> said;
   std::size_t width = 0;
   for (std::size_t i = 0; i < N; ++i) {
@@ -46,7 +46,7 @@ std::array<std::string, N> aligned(const std::array<std::string_view, N>& words,
 
 /// `passed` and its sisters as people find them at a glance.
 std::string verdict_words(Verdict verdict, Style style, const Say& say) {
-  const auto words = aligned<3>({"ok", "FAIL", "ERROR"}, say);
+  const auto words = aligned<3>({texts::Ok(), texts::LoudFail(), texts::LoudError()}, say);
   return style.paint(verdict == Verdict::Passed ? Role::Good : Role::Error,
                      words[static_cast<std::size_t>(verdict)]);
 }
@@ -55,7 +55,7 @@ std::string details(const GroupResult& group, const CaseResult& one, Style style
   std::string out;
   if (one.verdict == Verdict::Error)
     return indented(to_terminal_text(one.problem), "  ");
-  const auto [seen, ran, rerun] = aligned<3>({"seen:", "ran:", "rerun:"}, say);
+  const auto [seen, ran, rerun] = aligned<3>({texts::Seen(), texts::Ran(), texts::Rerun()}, say);
   for (const auto& miss : one.misses) {
     out += fmt::format("  {}:{}: {}\n", shown_name(group.file), miss.line,
                        style.paint(Role::Bold, miss.expected));
@@ -77,40 +77,38 @@ std::string about(const GroupResult& group, bool with_program, const Say& say) {
   if (group.cases.size() < 2)
     return group.cases.empty() || group.cases.front().seed == 1
                ? out
-               : fmt::format("{}, {}", out, say(fmt::format("seed {}", group.cases.front().seed)));
+               : fmt::format("{}, {}", out, say(texts::Seed(group.cases.front().seed)));
   if (failed == 0)
-    return fmt::format("{}, {}", out, say(plural(group.cases.size(), "run")));
+    return fmt::format("{}, {}", out, say(counted(group.cases.size(), texts::OneRun, texts::Runs)));
   if (group.verdict() == Verdict::Error)
     return out;
-  auto seeds = failed_seeds(group);
-  if (seeds.size() > longest_seeds)
-    seeds = seeds.substr(0, seeds.rfind(',', longest_seeds)) + ", …";
+  const auto& row = failed == 1 ? texts::FailedRun : texts::FailedRuns;
   return fmt::format("{}, {}", out,
-                     say(fmt::format("{} of {} runs: seed{} {}", failed, group.cases.size(),
-                                     failed == 1 ? "" : "s", seeds)));
+                     say(row(failed, group.cases.size(), failed_seeds(group, say, longest_seeds))));
 }
 
-std::string_view cell_text(const GroupResult* cell) {
+Message cell_text(const GroupResult* cell) {
   if (cell == nullptr || cell->cases.empty())
-    return "";
+    return {};
   switch (cell->verdict()) {
-  case Verdict::Passed: return "ok";
-  case Verdict::Failed: return "FAIL";
-  case Verdict::Error: return "error";
+  case Verdict::Passed: return texts::Ok();
+  case Verdict::Failed: return texts::LoudFail();
+  case Verdict::Error: return texts::Error();
   }
-  return "";
+  return {};
 }
 
 std::string draw(const Table& table, Style style, const Say& say) {
-  const auto program = say("program");
+  const auto program = say(texts::Program());
   auto first = code_points(program);
   const std::size_t narrowest =
-      std::max({code_points("error"), code_points(say("FAIL")), code_points(say("error"))});
+      std::max({code_points(texts::Error.english), code_points(say(texts::LoudFail())),
+                code_points(say(texts::Error()))});
   for (const auto& row : table.rows)
     first = std::max(first, code_points(shown_name(row.program)));
   auto heads = table.tests;
   for (auto& head : heads)
-    head = to_printable(say(head));
+    head = to_printable(say(Message::as_is(head)));
   std::size_t width = first;
   for (const auto& head : heads)
     width += 2 + std::max(code_points(head), narrowest);
@@ -121,7 +119,7 @@ std::string draw(const Table& table, Style style, const Say& say) {
   std::string out = style.paint(Role::Bold, padded(program, first));
   for (const auto& head : heads)
     out += "  " + style.paint(Role::Bold, padded(head, narrowest));
-  out += "  " + style.paint(Role::Bold, say("points")) + "\n";
+  out += "  " + style.paint(Role::Bold, say(texts::Points())) + "\n";
   for (const auto& row : table.rows) {
     out += padded(shown_name(row.program), first);
     for (std::size_t i = 0; i < heads.size(); ++i) {
@@ -133,13 +131,13 @@ std::string draw(const Table& table, Style style, const Say& say) {
     out += fmt::format("  {}/{}\n", row.points, row.points_of);
   }
   for (std::size_t i = 0; numbered && i < heads.size(); ++i)
-    out += fmt::format("{}: {}\n", i + 1, to_printable(say(table.tests[i])));
+    out += fmt::format("{}: {}\n", i + 1, to_printable(say(Message::as_is(table.tests[i]))));
   return out;
 }
 
 /// Who handed in nothing.
 std::string missing_words(const Results& results, const Say& say) {
-  auto text = say("without a program:") + " ";
+  auto text = say(texts::WithoutProgram()) + " ";
   for (std::size_t i = 0; i < results.missing.size(); ++i)
     text += (i == 0 ? "" : ", ") + shown_name(results.missing[i]);
   return text;
@@ -167,7 +165,7 @@ std::string render_text(const Results& results, Listing listing, Style style, co
       continue;
     }
     out += fmt::format("{} {}:{}: {}{}\n", verdict, shown_name(group.file), group.line,
-                       to_printable(say(group.test)), about(group, many, say));
+                       to_printable(say(Message::as_is(group.test))), about(group, many, say));
     if (failure != nullptr && is_new)
       out += details(group, *failure, style, say);
   }
@@ -181,12 +179,13 @@ std::string render_text(const Results& results, Listing listing, Style style, co
 std::string render_summary(const Results& results, const Say& say) {
   const auto totals = totals_of(results);
   if (totals.cases == 0)
-    return say(results.cases == 0 ? "no tests" : "no cases in this shard");
-  auto out = say(fmt::format("{} of {} passed", totals.tests_passed, plural(totals.tests, "test")));
+    return say(results.cases == 0 ? texts::NoTests() : texts::NoCases());
+  auto out = say(totals.tests == 1 ? texts::PassedOfOne(totals.tests_passed)
+                                   : texts::PassedOf(totals.tests_passed, totals.tests));
   if (totals.points_of != static_cast<std::int64_t>(totals.tests))
-    out += ", " + say(fmt::format("{} of {} points", totals.points, totals.points_of));
+    out += ", " + say(texts::PointsOf(totals.points, totals.points_of));
   if (totals.cases != totals.tests)
-    out += ", " + say(fmt::format("{} of {} runs", totals.cases - totals.failed, totals.cases));
+    out += ", " + say(texts::RunsOf(totals.cases - totals.failed, totals.cases));
   return out;
 }
 

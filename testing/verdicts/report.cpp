@@ -5,6 +5,7 @@
 #include "report/page.h"
 #include "report/svg.h"
 #include "testing/run_suite.h"
+#include "testing/texts.h"
 #include "testing/verdicts/pupils.h"
 #include "testing/verdicts/render.h"
 #include "testing/verdicts/table.h"
@@ -64,6 +65,16 @@ std::string replay_page(const Footage& footage, std::string_view title) {
                           : report::report_page(footage.front().journey, title);
 }
 
+Message called(Verdict verdict) {
+  return verdict == Verdict::Passed   ? texts::Passed()
+         : verdict == Verdict::Failed ? texts::Failed()
+                                      : texts::Error();
+}
+
+Message runs(std::uint64_t n) {
+  return counted(n, texts::OneRun, texts::Runs);
+}
+
 /// How a program did in all of its tests.
 struct Pupil {
   std::string picture; ///< of its first run that failed, else of its first
@@ -102,20 +113,20 @@ public:
     if (!passed.empty())
       page += fmt::format("<details{}><summary>{}</summary>\n{}</details>\n",
                           failed.empty() ? " open" : "",
-                          say(fmt::format("{} passed", plural(passes, "test"))), passed);
+                          say(counted(passes, texts::OnePassed, texts::SomePassed)), passed);
     if (left_out_ > 0)
-      page += fmt::format("<p class=\"dim\">{}</p>\n",
-                          say(fmt::format("without a picture: {}", plural(left_out_, "run"))));
+      page += fmt::format("<p class=\"dim\">{}</p>\n", say(texts::WithoutPicture(runs(left_out_))));
     return pages_.write("index.html", page + "</body></html>\n");
   }
 
 private:
-  std::string say(std::string_view english) const { return escape_markup(speech_.say(english)); }
+  std::string say(const Message& message) const { return escape_markup(speech_.say(message)); }
+  /// What somebody wrote, of which a lesson has a translation.
+  std::string say_title(const std::string& title) const { return say(Message::as_is(title)); }
 
   /// What was tested: a program, or all those of a room.
   std::string subject(const Group& group, const GroupResult& told) const {
-    return group.room.empty() ? told.program
-                              : speech_.say(fmt::format("a room of {} balls", group.room.size()));
+    return group.room.empty() ? told.program : speech_.say(texts::Room(group.room.size()));
   }
 
   std::string name_of(const Table::Row& row) const {
@@ -160,16 +171,17 @@ private:
       out += field(*row);
     out += "</div>\n";
     if (certified_)
-      out += fmt::format("<p><a href=\"certificates.html\">{}</a></p>\n", say("Certificates"));
-    out += fmt::format("<table>\n<tr><th>{}</th>", say("program"));
+      out +=
+          fmt::format("<p><a href=\"certificates.html\">{}</a></p>\n", say(texts::Certificates()));
+    out += fmt::format("<table>\n<tr><th>{}</th>", say(texts::Program()));
     for (const auto& test : table.tests)
-      out += fmt::format("<th>{}</th>", say(test));
-    out += fmt::format("<th>{}</th></tr>\n", say("points"));
+      out += fmt::format("<th>{}</th>", say_title(test));
+    out += fmt::format("<th>{}</th></tr>\n", say(texts::Points()));
     for (const auto* row : rows) {
       out += fmt::format("<tr><td><a href=\"{}\">{}</a></td>", pupils_.at(row->program).own,
                          escape_markup(row->program));
       for (const auto* cell : row->cells)
-        out += mark(cell, "td", cell == nullptr ? "" : say(to_string(cell->verdict())));
+        out += mark(cell, "td", cell == nullptr ? "" : say(called(cell->verdict())));
       out += fmt::format("<td>{}/{}</td></tr>\n", row->points, row->points_of);
     }
     return out + "</table>\n";
@@ -186,17 +198,17 @@ private:
     if (cell == nullptr || cell->cases.empty())
       return fmt::format("<{0}></{0}>", element);
     return fmt::format("<{0} class=\"{1}\"><a href=\"#g{2}\" title=\"{3}\">{4}</a></{0}>", element,
-                       to_string(cell->verdict()), cell->first, say(cell->test), text);
+                       to_string(cell->verdict()), cell->first, say_title(cell->test), text);
   }
 
   std::string field(const Table::Row& row) const {
     const auto& pupil = pupils_.at(row.program);
     auto out = fmt::format("<div class=\"pupil {}\">", failed(row) ? "failed" : "passed");
     if (pupil.picture.empty())
-      out += fmt::format("<p class=\"none\">{}</p>", say("no run"));
+      out += fmt::format("<p class=\"none\">{}</p>", say(texts::NoRun()));
     else
       out += fmt::format("<a href=\"{}\"><img src=\"{}\" alt=\"{}\" loading=\"lazy\"></a>",
-                         pupil.page, pupil.picture, say("the path of the ball"));
+                         pupil.page, pupil.picture, say(texts::PathOfBall()));
     out += fmt::format("<p><a href=\"{}\"><b>{}</b></a> {}/{}</p><p class=\"marks\">", pupil.own,
                        escape_markup(name_of(row)), row.points, row.points_of);
     for (const auto* cell : row.cells)
@@ -209,18 +221,18 @@ private:
 
   bool add_group(std::size_t index, std::string& body) {
     const auto& told = results_.groups[index];
-    const auto word = to_string(told.verdict());
+    const auto verdict = told.verdict();
     body += fmt::format(
         "<h2 id=\"g{}\"><span class=\"{}\">{}</span> {}, {} <span class=\"dim\">{}:{}"
         "</span></h2>\n",
-        told.first, word, say(word), say(told.test),
+        told.first, to_string(verdict), say(called(verdict)), say_title(told.test),
         escape_markup(subject(suite_.groups[index], told)), escape_markup(told.file), told.line);
     // Each run of a program that cannot run would say the same.
     const auto* failure = first_failure(told);
     if (failure != nullptr && failure->verdict == Verdict::Error) {
       body += once_.is_new(told, *failure)
                   ? fmt::format("<pre>{}</pre>\n", escape_markup(failure->problem))
-                  : fmt::format("<p class=\"dim\">{}</p>\n", say("as above"));
+                  : fmt::format("<p class=\"dim\">{}</p>\n", say(texts::AsAbove()));
       return true;
     }
     body += "<div class=\"runs\">\n";
@@ -234,8 +246,7 @@ private:
       }
     body += "</div>\n";
     if (omitted > 0)
-      body += fmt::format("<p class=\"dim\">{}</p>\n",
-                          say(fmt::format("{} failed, too", plural(omitted, "run"))));
+      body += fmt::format("<p class=\"dim\">{}</p>\n", say(texts::FailedToo(runs(omitted))));
     return true;
   }
 
@@ -282,14 +293,14 @@ private:
       out += fmt::format("<a href=\"{}\">", replay);
     if (!picture.empty())
       out += fmt::format("<img src=\"{}\" alt=\"{}\" loading=\"lazy\">", picture,
-                         say("the path of the ball"));
+                         say(texts::PathOfBall()));
     if (!replay.empty())
       out += "</a>";
-    const auto word = to_string(one.verdict);
-    out += fmt::format("<p><b class=\"{}\">{}</b> {}, {}", word, say(word),
-                       say(fmt::format("seed {}", one.seed)), words(one.lasted));
-    out += replay.empty() ? "</p>"
-                          : fmt::format(" · <a href=\"{}\">{}</a></p>", replay, say("replay"));
+    out += fmt::format("<p><b class=\"{}\">{}</b> {}, {}", to_string(one.verdict),
+                       say(called(one.verdict)), say(texts::Seed(one.seed)), words(one.lasted));
+    out += replay.empty()
+               ? "</p>"
+               : fmt::format(" · <a href=\"{}\">{}</a></p>", replay, say(texts::Replay()));
     for (const auto& miss : one.misses)
       out += fmt::format("<p><code>{}</code><br><span class=\"seen\">{}</span></p>",
                          escape_markup(miss.expected), say(miss.seen));

@@ -1,5 +1,7 @@
 #include "testing/verdicts/table.h"
 
+#include "testing/texts.h"
+
 #include <algorithm>
 #include <fmt/format.h>
 #include <map>
@@ -55,28 +57,35 @@ Table table_of(const Results& results) {
   return table;
 }
 
-std::string failed_seeds(const GroupResult& group) {
-  std::string text;
-  std::optional<std::uint64_t> first, last;
-  const auto tell = [&] {
-    if (!first)
-      return;
-    text += text.empty() ? "" : ", ";
-    text += *first == *last       ? fmt::format("{}", *first)
-            : *last == *first + 1 ? fmt::format("{}, {}", *first, *last)
-                                  : fmt::format("{} to {}", *first, *last);
+std::string failed_seeds(const GroupResult& group, const Say& say, std::size_t longest) {
+  struct Range {
+    std::uint64_t first;
+    std::uint64_t last;
   };
+  std::vector<Range> ranges;
   for (const auto& one : group.cases) {
     if (one.verdict == Verdict::Passed)
       continue;
-    if (last && one.seed == *last + 1) {
-      last = one.seed;
-      continue;
-    }
-    tell();
-    first = last = one.seed;
+    if (ranges.empty() || one.seed != ranges.back().last + 1)
+      ranges.push_back({one.seed, one.seed});
+    ranges.back().last = one.seed;
   }
-  tell();
+  std::string text;
+  std::size_t length = 0;
+  const auto tell = [&](const Message& seeds) {
+    length += in_english(seeds).size() + (text.empty() ? 0 : 2);
+    if (length <= longest)
+      text += (text.empty() ? "" : ", ") + say(seeds);
+    return length <= longest;
+  };
+  const auto seed = [](std::uint64_t number) { return Message::as_is(std::to_string(number)); };
+  for (const auto& [first, last] : ranges) {
+    const bool is_told = last > first + 1
+                             ? tell(texts::Seeds(first, last))
+                             : tell(seed(first)) && (last == first || tell(seed(last)));
+    if (!is_told)
+      return text + ", …";
+  }
   return text;
 }
 

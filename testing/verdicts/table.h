@@ -1,7 +1,9 @@
 #pragma once
 
+#include "base/render.h"
 #include "testing/results.h"
 
+#include <cstddef>
 #include <set>
 #include <string>
 #include <vector>
@@ -35,8 +37,9 @@ private:
   std::set<std::string> programs_;
 };
 
-/// `17, 40 to 52`: seeds that failed, in few words.
-std::string failed_seeds(const GroupResult& group);
+/// `17, 40 to 52`: seeds that failed, in few words; cut where these are longer in English.
+std::string failed_seeds(const GroupResult& group, const Say& say = in_english,
+                         std::size_t longest = std::string::npos);
 
 /// The first case that did not pass; null where all did.
 const CaseResult* first_failure(const GroupResult& group);

@@ -44,7 +44,7 @@ struct Hour {
 
   Hour() {
     structured::NoFiles files;
-    inputs.push_back(*run::read_input("hour.bas", program, "", {}, run::Lint::Off, files));
+    inputs.push_back(*run::read_input("hour.bas", program, "", {}, files));
     timeline = *debug::Timeline::start(inputs, options, silence);
     Nothing nothing;
     timeline->forward(nothing, 1h, [] { return false; });

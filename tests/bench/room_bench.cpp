@@ -40,8 +40,7 @@ class Nobody final : public run::Listener {
 struct Balls {
   Balls(double metres, bool walled) {
     NoFiles files;
-    inputs.push_back(
-        *run::read_input("p.bas", std::string(program), "", {}, run::Lint::Off, files));
+    inputs.push_back(*run::read_input("p.bas", std::string(program), "", {}, files));
     constexpr int columns = 15;
     const double apart = 100 * metres / columns;
     for (int i = 0; i < count; ++i) {

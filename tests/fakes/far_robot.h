@@ -63,7 +63,7 @@ public:
 inline std::vector<run::Input> program_of(std::string_view text) {
   structured::NoFiles files;
   std::vector<run::Input> inputs;
-  inputs.push_back(*run::read_input("p.bas", std::string(text), {}, {}, run::Lint::Off, files));
+  inputs.push_back(*run::read_input("p.bas", std::string(text), {}, {}, files));
   return inputs;
 }
 

@@ -49,7 +49,7 @@ std::string without_blanks(const std::string& text) {
 /// The line between "write `" and "`", the `n`th of them.
 std::vector<std::string> offered(const Diagnostic& finding) {
   std::vector<std::string> lines;
-  const auto& help = finding.help;
+  const auto& help = orb::in_english(finding.help);
   auto at = help.find("write `");
   while (at != std::string::npos) {
     const auto begin = help.find('`', at) + 1;
@@ -177,13 +177,14 @@ Judged judge(Language language, const Lines& program, std::size_t at,
       finding = &one;
   for (const auto& one : found) // where a name is used that was misspelt here
     if (finding == nullptr && one.fix && is_meant(split(apply(text, *one.fix))))
-      return {Verdict::Good, one.help};
+      return {Verdict::Good, orb::in_english(one.help)};
   if (finding == nullptr)
     return {!meanings.empty() && is_meant(program) ? Verdict::Good
             : orb::any_error(found)                ? Verdict::Wrong
                                                    : Verdict::Silent,
-            found.empty() ? "" : "elsewhere: " + found[0].message};
-  const auto said = fmt::format("{}; {}", finding->message, finding->help);
+            found.empty() ? "" : "elsewhere: " + orb::in_english(found[0].message)};
+  const auto said =
+      fmt::format("{}; {}", orb::in_english(finding->message), orb::in_english(finding->help));
   if (meant.empty())
     return {finding->help.empty() ? Verdict::Named : Verdict::Good, said};
   const auto lines = offered(*finding);
@@ -262,21 +263,21 @@ Lines said_of(Language language, const Lines& program) {
   Lines said;
   for (const auto& one : findings(language, text))
     said.push_back(fmt::format("{}: {} [{}]: {}{}{}", source.position(one.span.begin).line,
-                               to_string(one.severity), one.rule->id, one.message,
-                               one.help.empty() ? "" : "; ", one.help));
+                               to_string(one.severity), one.rule->id, orb::in_english(one.message),
+                               one.help.empty() ? "" : "; ", orb::in_english(one.help)));
   return said;
 }
 
-Lines sentences_of(Language language, const Lines& program) {
-  Lines sentences;
+std::vector<orb::Message> messages_of(Language language, const Lines& program) {
+  std::vector<orb::Message> messages;
   for (const auto& one : findings(language, join(program))) {
-    sentences.push_back(one.message);
+    messages.push_back(one.message);
     if (!one.help.empty())
-      sentences.push_back(one.help);
+      messages.push_back(one.help);
     for (const auto& note : one.notes)
-      sentences.push_back(note.message);
+      messages.push_back(note.message);
   }
-  return sentences;
+  return messages;
 }
 
 } // namespace slips

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "base/message.h"
+
 #include <cstddef>
 #include <string>
 #include <string_view>
@@ -46,7 +48,7 @@ Judged follow(Language language, const Lines& program, const std::vector<std::si
 Lines said_of(Language language, const Lines& program);
 
 /// The same in its sentences: what was seen, what helps.
-Lines sentences_of(Language language, const Lines& program);
+std::vector<orb::Message> messages_of(Language language, const Lines& program);
 
 /// What a program does, as text that can be compared; empty where it has errors.
 std::string meaning(Language language, const Lines& program);

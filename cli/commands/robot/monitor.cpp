@@ -60,7 +60,7 @@ std::optional<run::ProgramError> explain(const Reported& reported, const Lookup&
   const auto known = spec::find_error(reported.code);
   if (!known || lookup.input == nullptr)
     return std::nullopt;
-  return run::explain(*lookup.input, {}, reported.line, *known, nullptr);
+  return run::explain(*lookup.input, reported.line, *known, nullptr);
 }
 
 std::string place(const run::LineMap& lines, std::uint32_t robot_line) {
@@ -95,7 +95,7 @@ void print_json_message(const Async& message, const Lookup& lookup, Watched& wat
     if (!fault->cause.seen.empty())
       json["detail"] = fault->cause.seen;
     if (const auto& help = run::help_of(*fault); !help.empty())
-      json["help"] = help;
+      json["help"] = in_english(help);
   }
   print_json(json);
 }
@@ -337,7 +337,7 @@ tl::expected<run::LineMap, Failure> read_map(const std::string& path) {
 std::vector<run::Input> read_program(const run::LineMap& map) {
   if (map.files.empty() || map.known == run::Known::FileAndColumn)
     return {};
-  auto inputs = read_inputs({map.files.front()}, "basic", {}, run::Lint::Off);
+  auto inputs = read_inputs({map.files.front()}, "basic", {});
   return inputs && inputs->front().program ? *std::move(inputs) : std::vector<run::Input>();
 }
 

@@ -52,14 +52,14 @@ ExitCode fail(const Context& context, ExitCode exit, std::string_view message) {
 
 tl::expected<std::vector<run::Input>, Failure> load_all(const Context& context,
                                                         const UploadOptions& options) {
-  auto inputs = read_inputs(options.files, options.lang, options.target.target(),
-                            options.no_check ? run::Lint::Off : run::Lint::On);
+  auto inputs = read_inputs(options.files, options.lang, options.target.target());
   if (!inputs)
     return inputs;
   bool errors = false;
   bool sendable = true; // as it is: there is something to send
   for (const auto& input : *inputs) {
-    errors = print_findings(context, input) || errors;
+    errors =
+        print_findings(context, options.no_check ? input.errors : run::findings(input)) || errors;
     sendable = sendable && (input.program || !input.macros.empty());
   }
   if (errors)
@@ -268,7 +268,8 @@ void dry_run(Context& context, UploadOptions& options, const uploader::Delivery&
 
 void upload(Context& context, UploadOptions& options) {
   if (options.sleeps && options.roster.ports.empty() && options.roster.file.empty())
-    return cli::fail(context, {ExitCode::Usage, "`--sleep` puts a robot to sleep; add `--port URL`"});
+    return cli::fail(context,
+                     {ExitCode::Usage, "`--sleep` puts a robot to sleep; add `--port URL`"});
   if (options.sleeps && options.run && !options.monitor)
     return cli::fail(context,
                      {ExitCode::Usage, "`--sleep` would end what `--run` starts; omit one "

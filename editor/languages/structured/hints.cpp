@@ -1,7 +1,5 @@
 #include "editor/languages/structured/hints.h"
 
-#include "compiler/text/image.h"
-#include "compiler/text/parse.h"
 #include "editor/languages/shape.h"
 #include "editor/text.h"
 #include "editor/words.h"
@@ -19,8 +17,7 @@ using structured::Kind;
 /// The bytes of the image that each routine takes where it stands.
 std::map<std::uint32_t, std::uint32_t> bytes_of(const Compiled& compiled) {
   std::map<std::uint32_t, std::uint32_t> bytes;
-  const auto plain = compiler::parse(compiled.robot.text);
-  const auto image = compiler::build_image(plain, compiler::Packing::Packed);
+  const auto& image = compiled.image;
   for (std::size_t i = 0; i < image.lines.size() && i < compiled.robot.lines.size(); ++i)
     bytes[compiled.robot.lines[i].routine] += image.lines[i].size;
   return bytes;

@@ -55,31 +55,33 @@ void suggest_zones(Suggestions& out, const Source& source, const LanguageOptions
     out.items.push_back({zone.id, SuggestionKind::Name, "zone of " + file.course->text, ""});
 }
 
-void suggest_values(Suggestions& out, std::string_view word) {
-  if (word == testing::info(testing::LineWord::Target).word)
-    for (const auto& row : spec::basic_versions)
-      out.items.push_back(
-          {std::string(row.text), SuggestionKind::Value, std::string(row.summary), ""});
-  if (word == testing::info(testing::LineWord::Firmware).word)
-    for (const auto& row : spec::firmwares)
-      out.items.push_back(
-          {std::string(row.name), SuggestionKind::Value, std::string(row.summary), ""});
+/// What is to be written behind the last word.
+slot::Kind kind_behind(const Spot& spot) {
+  const auto first = [](const auto* row) {
+    return row == nullptr || row->slots.empty() ? slot::Kind::Rest : row->slots[0].kind;
+  };
+  const auto word = spot.before.back();
+  const bool is_line =
+      spot.before.size() == 1 || word == testing::info(testing::LineWord::Reach).word;
+  return is_line ? first(row_of(testing::line_words, word))
+                 : first(row_of(testing::expectations, word));
 }
 
-/// Whether the last word before takes a zone: `reach`, `inside`, `stay`.
-bool wants_zone(const Spot& spot) {
-  const auto operands_after = [&]() -> std::string_view {
-    if (spot.before.size() == 1)
-      if (const auto* row = row_of(testing::line_words, spot.before[0]))
-        return row->operands;
-    if (spot.before.back() == testing::info(testing::LineWord::Reach).word)
-      return testing::info(testing::LineWord::Reach).operands;
-    if (spot.before.size() == 2 && is_expectation(spot.before[0]))
-      if (const auto* row = row_of(testing::expectations, spot.before[1]))
-        return row->operands;
-    return {};
+/// The words that are known of a kind; false where there are none.
+bool suggest_values(Suggestions& out, slot::Kind kind) {
+  const auto add = [&](std::string_view word, std::string_view summary) {
+    out.items.push_back({std::string(word), SuggestionKind::Value, std::string(summary), ""});
   };
-  return operands_after().starts_with("ZONE");
+  if (kind == slot::Kind::Version)
+    for (const auto& row : spec::basic_versions)
+      add(row.text, row.summary);
+  if (kind == slot::Kind::Firmware)
+    for (const auto& row : spec::firmwares)
+      add(row.name, row.summary);
+  if (kind == slot::Kind::Colour)
+    for (const auto& row : spec::led_colours)
+      add(row.name, "");
+  return !out.items.empty();
 }
 
 Suggestions suggest(const Source& source, std::uint32_t offset, const LanguageOptions& options) {
@@ -93,19 +95,16 @@ Suggestions suggest(const Source& source, std::uint32_t offset, const LanguageOp
     suggest_rows(out, testing::expectations, reference::expectations_section(), test_language_id);
   } else if (is_stimulus_place(spot)) {
     suggest_rows(out, vm::stimulus_words, reference::stimulus_section(), test_language_id);
-  } else if (wants_zone(spot)) {
+  } else if (kind_behind(spot) == slot::Kind::Zone) {
     suggest_zones(out, source, options);
-  } else if (spot.before.back() == testing::info(testing::Word::Color).word) {
-    for (const auto& row : spec::led_colours)
-      out.items.push_back({std::string(row.name), SuggestionKind::Value, "", ""});
+  } else if (suggest_values(out, kind_behind(spot))) {
+    return out;
   } else if (const auto* join = row_of(testing::join_words, spot.before.back());
-             join != nullptr && join->operands != "TIME") {
+             join != nullptr && join->slots[0].kind == slot::Kind::Rest) {
     suggest_rows(out, testing::expectations, reference::expectations_section(), test_language_id);
   } else if (is_expectation(spot.before[0]) || spot.before[0] == "reach") {
     suggest_rows(out, testing::when_words, reference::test_lines_section(), test_language_id);
     suggest_rows(out, testing::join_words, reference::test_lines_section(), test_language_id);
-  } else if (spot.before.size() == 1) {
-    suggest_values(out, spot.before[0]);
   }
   return out;
 }

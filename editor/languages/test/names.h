@@ -37,8 +37,8 @@ void suggest_rows(Suggestions& out, const Rows& rows, const reference::Section& 
   for (const auto& row : rows)
     for (const auto& entry : section.entries)
       if (entry.name == row.word)
-        out.items.push_back({std::string(row.word), SuggestionKind::Keyword,
-                             std::string(row.operands), entry_markdown(section, entry, language)});
+        out.items.push_back({std::string(row.word), SuggestionKind::Keyword, usage(row.slots),
+                             entry_markdown(section, entry, language)});
 }
 
 /// The row of that word, or null.
@@ -54,8 +54,8 @@ template <class Row>
 Signature row_signature(const Row& row, const reference::Section& section,
                         std::string_view language) {
   SignatureText text(row.word);
-  text.close(row.operands.empty() ? "" : " ");
-  text.close(row.operands);
+  text.close(row.slots.empty() ? "" : " ");
+  text.close(usage(row.slots));
   return text.take(0, find_markdown(section, row.word, language).value_or(""));
 }
 

@@ -4,16 +4,13 @@
 #include "editor/text.h"
 #include "testing/suite.h"
 
-#include <array>
+#include <algorithm>
 
 namespace orb::editor {
 namespace {
 
-/// Words that only the descriptions of operands have.
-constexpr auto joints =
-    std::to_array<std::string_view>({"by", "to", "times", "points", "macro", "at"});
-
 void color_test_word(Palette& palette, Span span, std::string_view text, bool is_first) {
+  static const auto joints = testing::operand_words();
   const bool joins = std::find(joints.begin(), joints.end(), text) != joints.end();
   if ((is_first && row_of(testing::line_words, text) != nullptr) ||
       row_of(testing::when_words, text) != nullptr ||

@@ -18,7 +18,7 @@ Assembly assembled(const std::string& text, Folding folding = Folding::Keep) {
 
 std::string body_of(const std::string& text) {
   const auto assembly = assembled(text);
-  EXPECT_FALSE(assembly.has_errors()) << text << assembly.diagnostics[0].message;
+  EXPECT_FALSE(assembly.has_errors()) << text << in_english(assembly.diagnostics[0].message);
   return to_hex(assembly.macros.at(0).body);
 }
 

@@ -1,45 +1,62 @@
 #include "base/catalogue.h"
+#include "base/texts.h"
 
-#include <fstream>
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
-#include <string>
 
 namespace orb {
 namespace {
 
-/// The same cases are tried in JavaScript (tests/translations/check.mjs).
-nlohmann::json shared() {
-  return nlohmann::json::parse(std::ifstream(ORB_TRANSLATION_CASES));
+const auto german = *Catalogue::read(R"({
+  "write `{line}`; {why}": "{why}: schreib `{line}`",
+  "remove it": "entfern es",
+  "{n} errors": "{n} Fehler",
+  "the ball stops": "der Ball hält an"
+})");
+
+TEST(Catalogue, FillsTheHolesOfATranslation) {
+  EXPECT_EQ(german.say(texts::Errors(3)), "3 Fehler");
+  EXPECT_EQ(german.say(texts::WriteBecause("end", texts::RemoveIt())), "entfern es: schreib `end`");
 }
 
-TEST(Catalogue, FindsATextByItsKeyAndFillsItsHoles) {
-  const auto file = shared();
-  const auto german = *Catalogue::read(file.at("texts").dump());
-  for (const auto& row : file.at("cases")) {
-    const auto english = row.at(0).get<std::string>();
-    const auto said = german.find(english);
-    if (row.at(1).is_null())
-      EXPECT_FALSE(said) << english << " is said " << *said;
-    else
-      EXPECT_EQ(said, row.at(1).get<std::string>());
-    EXPECT_EQ(german.say(english), said.value_or(english));
-  }
+TEST(Catalogue, LeavesWordsInHolesAsTheyAre) {
+  EXPECT_EQ(german.say(texts::WriteBecause("remove it", texts::RemoveIt())),
+            "entfern es: schreib `remove it`");
+  EXPECT_EQ(german.say(texts::WriteBecause("{why}", texts::RemoveIt())),
+            "entfern es: schreib `{why}`");
 }
 
-TEST(Catalogue, IsNotLongOverTextsMadeToDeceiveIt) {
-  const auto german = *Catalogue::read(shared().at("texts").dump());
-  std::string text = "expected ";
-  for (int i = 0; i < 5'000; ++i)
-    text += "a number, found `a`; ";
-  EXPECT_FALSE(german.find(text));
+TEST(Catalogue, SaysInEnglishWhatItDoesNotHave) {
+  EXPECT_EQ(german.say(texts::WriteLike("end")), "write it like `end`");
+  EXPECT_EQ(german.say({}), "");
+}
+
+TEST(Catalogue, LooksUpWordsAsAWhole) {
+  EXPECT_EQ(german.say(Message::as_is("the ball stops")), "der Ball hält an");
+  EXPECT_EQ(german.say(Message::as_is("the ball")), "the ball");
+}
+
+TEST(Catalogue, MarksEachTextInThePseudoLocale) {
+  const auto marked = *Catalogue::marked(R"({"remove it": "", "write `{line}`; {why}": ""})");
+  EXPECT_EQ(marked.say(texts::WriteBecause("end", texts::RemoveIt())),
+            "⟦write `end`; ⟦remove it⟧⟧");
 }
 
 TEST(Catalogue, IsReadFromAnObjectOfTextsOnly) {
   EXPECT_FALSE(Catalogue::read("not JSON"));
   EXPECT_FALSE(Catalogue::read("[]"));
   EXPECT_FALSE(Catalogue::read(R"({"a": 1})"));
-  EXPECT_EQ(Catalogue::read("{}")->say("as it is"), "as it is");
+}
+
+TEST(Message, IsComparedByItsTextAndWhatFillsIt) {
+  EXPECT_EQ(texts::Write("a"), texts::Write("a"));
+  EXPECT_NE(texts::Write("a"), texts::Write("b"));
+  EXPECT_NE(texts::Write("a"), texts::Add("a"));
+  EXPECT_TRUE(texts::Write("a").is(texts::Write));
+}
+
+TEST(Message, FillsAHoleThatIsNamedTwice) {
+  static constexpr Row<Hole::Code, Hole::Code> twice{"Twice", "`{a}`, `{b}`, `{a}`"};
+  EXPECT_EQ(in_english(twice("x", 1)), "`x`, `1`, `x`");
 }
 
 } // namespace

@@ -2,6 +2,7 @@
 // types, the values that are allowed, and the indices that must point somewhere.
 
 #include "base/render.h"
+#include "base/texts.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -120,13 +121,13 @@ void expect_valid(const Json& log) {
 FileFindings findings(const Source& source) {
   FileFindings file;
   file.source = &source;
-  auto first = finding(bad_word, {6, 9}, "`bad` is bad", "write `good`");
-  first.notes.push_back({{0, 2}, "the line"});
-  first.fix = Fix{"write `good`", {{{6, 9}, "good"}, {{9, 9}, "!"}}, Safety::Safe};
+  auto first = finding(bad_word, {6, 9}, Message::as_is("`bad` is bad"), texts::Write("good"));
+  first.notes.push_back({{0, 2}, Message::as_is("the line")});
+  first.fix = Fix{texts::Write("good"), {{{6, 9}, "good"}, {{9, 9}, "!"}}, Safety::Safe};
   first.basic_line = 10;
   file.diagnostics.push_back(first);
-  file.diagnostics.push_back(finding(odd_word, {12, 12}, "byte \xFF is odd"));
-  file.diagnostics.push_back(finding(bad_word, {6, 9}, "again"));
+  file.diagnostics.push_back(finding(odd_word, {12, 12}, Message::as_is("byte \xFF is odd")));
+  file.diagnostics.push_back(finding(bad_word, {6, 9}, Message::as_is("again")));
   return file;
 }
 
@@ -150,8 +151,9 @@ TEST(Sarif, IsAsTheSchemaAsks) {
 std::vector<std::string> fingerprints(std::string text, Span span) {
   const Source source("a.bas", std::move(text));
   FileFindings file{&source,
-                    {finding(bad_word, span, "bad"), finding(bad_word, span, "bad"),
-                     finding(odd_word, span, "odd")},
+                    {finding(bad_word, span, Message::as_is("bad")),
+                     finding(bad_word, span, Message::as_is("bad")),
+                     finding(odd_word, span, Message::as_is("odd"))},
                     {}};
   std::vector<std::string> prints;
   const auto log = Json::parse(render_sarif({file}));

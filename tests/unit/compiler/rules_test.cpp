@@ -29,7 +29,7 @@ TEST(Rules, EachGoodExampleIsFine) {
     if (!rule.good.empty()) {
       const auto checked = check(rule.good, {});
       for (const auto& d : checked.diagnostics)
-        ADD_FAILURE() << rule.id << ": " << d.rule->id << ": " << d.message;
+        ADD_FAILURE() << rule.id << ": " << d.rule->id << ": " << in_english(d.message);
     }
 }
 

@@ -45,7 +45,7 @@ const GiveUp never_give_up = [] { return false; };
 
 run::Input input_of(std::string name, std::string text) {
   structured::NoFiles files;
-  auto input = run::read_input(std::move(name), std::move(text), "", {}, run::Lint::Off, files);
+  auto input = run::read_input(std::move(name), std::move(text), "", {}, files);
   EXPECT_TRUE(input.has_value());
   return *std::move(input);
 }

@@ -1,5 +1,7 @@
 #include "repair/idioms.h"
 
+#include "repair/texts.h"
+
 #include <algorithm>
 #include <array>
 #include <cctype>
@@ -13,7 +15,24 @@ namespace orb::repair {
 namespace {
 
 constexpr auto rows = std::to_array<Idiom>({
-#define ORB_IDIOM(where, ...) {Where::where, __VA_ARGS__},
+#define ORB_IDIOM(where, patterns, basic, structured, macro, test, ...)                            \
+  {Where::where, patterns, basic, structured, macro, test},
+#include "repair/idioms.def"
+});
+
+template <Hole... Kinds>
+constexpr std::size_t count_holes(const Row<Kinds...>&) {
+  return sizeof...(Kinds);
+}
+
+struct HintRow {
+  Hint hint;
+  std::size_t holes;
+};
+
+constexpr auto hints = std::to_array<HintRow>({
+#define ORB_HINT(patterns, text, basic, structured)                                                \
+  {{patterns, &texts::text, basic, structured}, count_holes(texts::text)},
 #include "repair/idioms.def"
 });
 
@@ -79,6 +98,15 @@ TEST(Idioms, FormsNameWhatTheirPatternsHold) {
                                   }))
               << pattern << "  ->  " << form;
     }
+}
+
+TEST(Idioms, HintsFillTheHolesOfTheirTexts) {
+  for (const auto& [hint, holes] : hints)
+    for (const auto form : {hint.basic, hint.structured})
+      if (!form.empty()) {
+        EXPECT_EQ(form == "-" ? 0 : parted(form, " ;; ").size(), holes)
+            << hint.patterns << "  ->  " << form;
+      }
 }
 
 } // namespace

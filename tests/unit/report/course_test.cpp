@@ -18,7 +18,7 @@ CourseReading read(std::string text) {
 Course course(const std::string& inside) {
   auto reading = read("<svg><circle class='start' r='4'/>" + inside + "</svg>");
   for (const auto& one : reading.findings)
-    ADD_FAILURE() << inside << ": " << one.message;
+    ADD_FAILURE() << inside << ": " << in_english(one.message);
   return std::move(reading.course);
 }
 
@@ -92,7 +92,7 @@ TEST(Course, TheStartIsWhereACircleIsAndFacesUp) {
   const auto wall = [](const std::string& start) {
     const auto reading =
         read("<svg>" + start + "<line class='wall' x1='10' y1='10' x2='30' y2='10'/></svg>");
-    return reading.course.walls.empty() ? reading.findings[0].message
+    return reading.course.walls.empty() ? in_english(reading.findings[0].message)
                                         : vm::to_string(reading.course.walls[0]);
   };
   EXPECT_EQ(wall("<circle class='start' cx='10' cy='30' r='4'/>"), "0,20 to 20,20");

@@ -18,7 +18,7 @@ public:
 std::string named_changes(const std::string& name, const std::string& text) {
   structured::NoFiles files;
   std::vector<Input> inputs;
-  auto input = read_input(name, text, "", {}, Lint::Off, files);
+  auto input = read_input(name, text, "", {}, files);
   if (!input)
     return input.error().message;
   inputs.push_back(*std::move(input));

@@ -60,11 +60,11 @@ tl::expected<Input, Failure> random_input(Random& random, const compiler::Target
     style.lines = 1 + static_cast<int>(random.below(8));
     style.broken = 0.2;
     return read_input("a.bas", testing::RandomProgram(random.next(), style).write(), "", target,
-                      Lint::Off, files);
+                      files);
   }
-  case 1: return read_input("a.sphero", random_bytes(random), "", target, Lint::Off, files);
-  case 2: return read_input("a.bin", random_bytes(random), "", target, Lint::Off, files);
-  default: return read_input("a.macro", random_macros(random), "", target, Lint::Off, files);
+  case 1: return read_input("a.sphero", random_bytes(random), "", target, files);
+  case 2: return read_input("a.bin", random_bytes(random), "", target, files);
+  default: return read_input("a.macro", random_macros(random), "", target, files);
   }
 }
 
@@ -127,7 +127,7 @@ TEST(Live, ANumberThatIsWaitedForIsTakenHoweverLate) {
   options.until = Until::Rest;
   std::vector<Input> inputs;
   inputs.push_back(*read_input("a.bas", "10 goroll 0,90,1\n20 input A\n30 print \"got \" A\n", "",
-                               options.target, Lint::Off, files));
+                               options.target, files));
   Prints prints;
   auto live = *Live::start(inputs, options, prints, nullptr);
   live->keep_waiting();

@@ -45,7 +45,7 @@ TEST(Control, SaysWhatToWriteInstead) {
       {"2s shake", "a time without `at`: `2s`; write `at 2s shake`"},
       {"at shake", "`at` takes a time and an event; write it like `at 2.5s shake`"},
       {"at now", "`at` takes a time and an event; write it like `at 2.5s shake`"},
-      {"push 90", "`push`: missing strength: expected 0 to 255"},
+      {"push 90", "missing strength: expected 0 to 255"},
       {"reset it", "`reset` takes no values; write `reset`"},
       {"4 shake", "there is no ball 4; the balls are 1 to 3"},
       {"0 shake", "there is no ball 0; the balls are 1 to 3"},

@@ -30,7 +30,8 @@ std::string all_findings(const Compiled& compiled) {
   std::string text;
   for (const auto& found : compiled.program.diagnostics)
     text += std::string(found.rule->id) + " at `" +
-            std::string(compiled.program.text_of(found.span)) + "`: " + found.message + "\n";
+            std::string(compiled.program.text_of(found.span)) + "`: " + in_english(found.message) +
+            "\n";
   return text;
 }
 
@@ -82,7 +83,7 @@ void compare_text(const std::string& text, std::uint64_t seed) {
   for (const auto& found : checked.diagnostics) {
     if (is_error(found) && !keeps_from_building(found))
       continue; // what stops the one for certain stops both
-    ASSERT_TRUE(may_remain(found)) << found.rule->id << ": " << found.message;
+    ASSERT_TRUE(may_remain(found)) << found.rule->id << ": " << in_english(found.message);
   }
 
   vm::NotebookHost plain_host;
@@ -309,7 +310,8 @@ TEST(Agreement, IndicesThatAreErrorsAreWrong) {
             found.span.begin < statement.span.begin || found.span.end > statement.span.end)
           continue;
         ++seen;
-        ASSERT_FALSE(plain.done[i]) << "seed " << seed << ": " << found.message << "\n" << text;
+        ASSERT_FALSE(plain.done[i]) << "seed " << seed << ": " << in_english(found.message) << "\n"
+                                    << text;
       }
   }
   EXPECT_GT(seen, 0U);

@@ -32,7 +32,7 @@ std::string lines(std::string_view text) {
     return result.robot.text;
   std::string findings;
   for (const auto& d : result.program.diagnostics)
-    findings += fmt::format("{}: {}\n", d.rule->id, d.message);
+    findings += fmt::format("{}: {}\n", d.rule->id, in_english(d.message));
   return findings;
 }
 
@@ -511,7 +511,7 @@ TEST(Limits, AProgramThatIsTooLargeNamesItsParts) {
   text += "end sub\nbig(1)\nbig(2)\n";
   const auto result = compiled(text);
   EXPECT_EQ(first_rule(result), "program-too-large");
-  EXPECT_NE(result.program.diagnostics.front().help.find("`big`"), std::string::npos);
+  EXPECT_NE(in_english(result.program.diagnostics.front().help).find("`big`"), std::string::npos);
 }
 
 TEST(Lines, AMisspeltStatementIsNotTakenForACall) {

@@ -66,7 +66,7 @@ TEST(Words, ExamplesAreProgramsWithoutFindings) {
         continue;
       const auto compiled = compile("test.orb", "test.orb", row.example, {}, files);
       for (const auto& found : compiled.program.diagnostics)
-        EXPECT_EQ(found.severity, Severity::Info) << row.word << ": " << found.message;
+        EXPECT_EQ(found.severity, Severity::Info) << row.word << ": " << in_english(found.message);
       EXPECT_EQ(format(row.example), row.example) << row.word;
     }
   }

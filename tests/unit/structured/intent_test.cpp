@@ -57,7 +57,7 @@ TEST(Intent, NothingIsSaidOfProgramsThatAreMeantSo) {
   for (const auto& sample : samples)
     for (const auto& d : findings_of(sample))
       if (d.severity != Severity::Info)
-        ADD_FAILURE() << sample.text << d.rule->id << ": " << d.message;
+        ADD_FAILURE() << sample.text << d.rule->id << ": " << in_english(d.message);
 }
 
 TEST(Intent, MistakesAreNamed) {

@@ -108,9 +108,10 @@ constexpr std::size_t slips = 13;
 /// The lines that a finding offers.
 std::vector<std::string> offered(const Diagnostic& finding) {
   std::vector<std::string> lines;
-  if (!finding.help.starts_with("write `"))
+  const auto said = in_english(finding.help);
+  std::string_view help = said;
+  if (!help.starts_with("write `"))
     return lines;
-  std::string_view help = finding.help;
   for (auto at = help.find('`'); at != std::string_view::npos; at = help.find('`')) {
     help.remove_prefix(at + 1);
     const auto end = std::min(help.find('`'), help.size());
@@ -155,7 +156,8 @@ void expect_kept(Dialect dialect, std::uint64_t seed) {
     });
     if (lines.size() != 1 || !whole || !is_error(finding))
       continue;
-    EXPECT_EQ(lost(planted, lines[0]), "") << text << finding.message << "\n" << finding.help;
+    EXPECT_EQ(lost(planted, lines[0]), "") << text << in_english(finding.message) << "\n"
+                                           << in_english(finding.help);
   }
 }
 

@@ -29,7 +29,7 @@ TEST(Rules, EachBadExampleHasOneFinding) {
   for (const auto& rule : rules::all())
     if (!rule.bad.empty()) {
       for (const auto& d : compile_text(rule.bad).program.diagnostics)
-        EXPECT_EQ(d.rule, &rule) << rule.id << ": " << d.rule->id << ": " << d.message;
+        EXPECT_EQ(d.rule, &rule) << rule.id << ": " << d.rule->id << ": " << in_english(d.message);
     }
 }
 
@@ -37,7 +37,7 @@ TEST(Rules, EachGoodExampleIsFine) {
   for (const auto& rule : rules::all())
     for (const auto& d : compile_text(rule.good).program.diagnostics)
       if (!rule.good.empty())
-        ADD_FAILURE() << rule.id << ": " << d.rule->id << ": " << d.message;
+        ADD_FAILURE() << rule.id << ": " << d.rule->id << ": " << in_english(d.message);
 }
 
 TEST(Rules, RowsAreWritten) {

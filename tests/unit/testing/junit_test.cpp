@@ -30,7 +30,8 @@ GroupResult group(std::string test, Verdict verdict, std::uint64_t cases) {
     one.verdict = i == 0 ? verdict : Verdict::Passed;
     one.lasted = 1234567us;
     if (one.verdict == Verdict::Failed)
-      one.misses.push_back({1, std::string(nasty), std::string(nasty), std::string(nasty)});
+      one.misses.push_back(
+          {1, std::string(nasty), Message::as_is(std::string(nasty)), std::string(nasty)});
     if (one.verdict == Verdict::Error)
       one.problem = std::string(nasty);
   }

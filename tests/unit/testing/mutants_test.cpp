@@ -99,7 +99,7 @@ CaseResult judge(const Mutant& mutant, std::string_view program) {
                                          mutant.expectation)}},
                  {}, files);
   EXPECT_TRUE(suite.has_value());
-  EXPECT_FALSE(suite->has_errors()) << suite->files[0].file.diagnostics[0].message;
+  EXPECT_FALSE(suite->has_errors()) << in_english(suite->files[0].file.diagnostics[0].message);
   return run_case(*suite, suite->groups.front(), 1, nullptr, nullptr);
 }
 
@@ -107,11 +107,12 @@ TEST(Mutants, EachWordTellsAGoodProgramFromABadOne) {
   for (const auto& mutant : mutants) {
     const auto good = judge(mutant, mutant.good);
     EXPECT_EQ(good.verdict, Verdict::Passed)
-        << mutant.expectation << (good.misses.empty() ? good.problem : good.misses[0].seen);
+        << mutant.expectation
+        << (good.misses.empty() ? good.problem : in_english(good.misses[0].seen));
     const auto bad = judge(mutant, mutant.bad);
     ASSERT_EQ(bad.verdict, Verdict::Failed) << mutant.expectation << bad.problem;
-    EXPECT_TRUE(bad.misses.front().seen.starts_with(mutant.seen))
-        << mutant.expectation << bad.misses.front().seen;
+    const auto seen = in_english(bad.misses.front().seen);
+    EXPECT_TRUE(seen.starts_with(mutant.seen)) << mutant.expectation << seen;
     EXPECT_FALSE(bad.again.empty());
   }
 }

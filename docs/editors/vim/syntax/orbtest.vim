@@ -6,8 +6,8 @@ endif
 syntax case match
 syntax keyword orbtestKeyword program ball with course target firmware area seeds
 syntax keyword orbtestKeyword for test expect reach never within at during
-syntax keyword orbtestKeyword and after before by to times points end
-syntax keyword orbtestKeyword macro
+syntax keyword orbtestKeyword and after before to times facing points by
+syntax keyword orbtestKeyword macro end
 syntax keyword orbtestExpectation print prints near beyond inside stay heading speed
 syntax keyword orbtestExpectation moving resting distance color backled marker collision error
 syntax keyword orbtestExpectation asleep end lines bytes

@@ -1,21 +1,16 @@
-#include "testing/check_files.h"
+#include "run/check_files.h"
 
 #include "base/fixes.h"
 #include "compiler/check.h"
 #include "report/course.h"
 #include "structured/compile.h"
-#include "testing/suite.h"
 
 #include <algorithm>
-#include <array>
 #include <optional>
 #include <utility>
 
-namespace orb::testing {
+namespace orb::run {
 namespace {
-
-using run::Language;
-using run::SourceFile;
 
 /// What the files of one call share.
 struct Call {
@@ -31,17 +26,9 @@ void check_course(const SourceFile& file, Call& call) {
   call.found.files.push_back({&file.source, report::read_course(file.source).findings, {}});
 }
 
-void check_tests(const SourceFile& file, Call& call) {
-  call.found.files.push_back({&file.source, check(file.source, call.reader), {}});
-}
-
 void check_basic(const SourceFile& file, Call& call) {
   auto checked = compiler::check(file.source.text(), call.target);
   call.found.files.push_back({&file.source, std::move(checked.diagnostics), checked.image_bytes});
-}
-
-void check_macro(const SourceFile&, Call& call) {
-  call.found.files.push_back(std::move(call.macros[call.next_macro++]));
 }
 
 /// Whether an included file is checked for its own sake, or was shown already.
@@ -62,7 +49,7 @@ void check_structured(const SourceFile& file, Call& call) {
   auto found = structured::findings_by_file(program);
   std::optional<std::size_t> built_size;
   if (!compiled.robot.lines.empty())
-    built_size = compiled.image_bytes;
+    built_size = compiled.image.bytes.size();
   call.found.files.push_back({&source, std::move(found.front()), built_size});
   for (std::size_t i = 1; i < found.size(); ++i) {
     const auto& part = program.files[i];
@@ -74,42 +61,32 @@ void check_structured(const SourceFile& file, Call& call) {
   }
 }
 
-/// A kind of file, and what checks one.
-struct FileKind {
-  bool (*is_of_kind)(const SourceFile& file);
-  void (*check)(const SourceFile& file, Call& call);
-};
-
-/// The first kind that takes a file checks it: what a name says is stronger than a language.
-constexpr std::array<FileKind, 5> kinds = {{
-    {[](const SourceFile& file) { return report::is_course(file.path); }, check_course},
-    {[](const SourceFile& file) { return is_test(file.path); }, check_tests},
-    {[](const SourceFile& file) { return file.language == Language::Basic; }, check_basic},
-    {[](const SourceFile& file) { return file.language == Language::Structured; },
-     check_structured},
-    {[](const SourceFile& file) { return file.language == Language::Macro; }, check_macro},
-}};
-
-const FileKind& kind_of(const SourceFile& file) {
-  return *std::find_if(kinds.begin(), kinds.end(),
-                       [&](const FileKind& kind) { return kind.is_of_kind(file); });
+void check_file(const SourceFile& file, Call& call) {
+  if (!file.language) {
+    if (report::is_course(file.path))
+      check_course(file, call);
+    else
+      call.found.files.push_back({&file.source, {}, {}});
+    return;
+  }
+  switch (*file.language) {
+  case Language::Basic: return check_basic(file, call);
+  case Language::Structured: return check_structured(file, call);
+  case Language::Macro: call.found.files.push_back(std::move(call.macros[call.next_macro++]));
+  }
 }
 
 } // namespace
-
-bool is_no_program(std::string_view file_name) {
-  return report::is_course(file_name) || is_test(file_name);
-}
 
 Findings check_files(std::span<const SourceFile> sources, const compiler::Target& target,
                      const assembler::LintOptions& macro, structured::Files& files) {
   std::vector<const Source*> macros;
   for (const auto& file : sources)
-    if (kind_of(file).check == check_macro)
+    if (file.language == Language::Macro)
       macros.push_back(&file.source);
   Call call{sources, target, files, assembler::check(macros, macro), 0, {}};
   for (const auto& file : sources)
-    kind_of(file).check(file, call);
+    check_file(file, call);
   return std::move(call.found);
 }
 
@@ -124,4 +101,4 @@ std::size_t fix(SourceFile& file,
   return fixed.count;
 }
 
-} // namespace orb::testing
+} // namespace orb::run

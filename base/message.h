@@ -1,0 +1,159 @@
+#pragma once
+
+#include <algorithm>
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <initializer_list>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace orb {
+
+/// What fills a hole of a text.
+enum class Hole : std::uint8_t {
+  Code,   ///< source, or words of a computer language, in backticks; no language of people
+  Number, ///< a whole number
+  Name,   ///< names, figures and amounts, such as `90 ms`; the same in every language of people
+  Part,   ///< another message
+};
+
+/// What people can be told: a row of a table of texts (base/texts.inc).
+struct Text {
+  std::string_view id;      ///< the name of the row
+  std::string_view english; ///< with a named hole, `{word}`, for each part that differs
+};
+
+/// What somebody is told, as data: a text and what fills its holes, or words that are the same in
+/// every language. Renderers make sentences of it (in_english(), base/catalogue.h); nobody else
+/// looks at its words.
+class Message {
+public:
+  /// Nothing.
+  Message() = default;
+  Message(const Text& text, std::vector<Message> fillers)
+      : text_(&text), fillers_(std::move(fillers)) {}
+  /// Words that no language of people changes: source, names, figures, what another program said.
+  static Message as_is(std::string words) {
+    Message message;
+    message.words_ = std::move(words);
+    return message;
+  }
+
+  bool empty() const { return text_ == nullptr && words_.empty(); }
+  /// The row; null for words as they are.
+  const Text* text() const { return text_; }
+  bool is(const Text& text) const { return text_ == &text; }
+  /// The words as they are; empty where there is a row.
+  const std::string& words() const { return words_; }
+  /// What fills the holes, in their order.
+  const std::vector<Message>& fillers() const { return fillers_; }
+  /// Puts something else into a hole.
+  void refill(std::size_t hole, Message filler) { fillers_[hole] = std::move(filler); }
+
+  friend bool operator==(const Message&, const Message&) = default;
+
+private:
+  const Text* text_ = nullptr;
+  std::string words_;
+  std::vector<Message> fillers_;
+};
+
+/// The sentence in English.
+std::string in_english(const Message& message);
+
+/// `text` with what fills each of its named holes; `hole(name)` gives it.
+template <typename Filler>
+std::string with_holes_filled(std::string_view text, const Filler& hole) {
+  std::string out;
+  for (auto open = text.find('{'); open != std::string_view::npos; open = text.find('{')) {
+    const auto close = std::min(text.find('}', open), text.size() - 1);
+    out += text.substr(0, open);
+    out += hole(text.substr(open + 1, close - open - 1));
+    text.remove_prefix(close + 1);
+  }
+  return out.append(text);
+}
+
+/// The place of a hole among those of a text: the names count, in the order in which they appear.
+constexpr std::size_t place_of_hole(std::string_view english, std::string_view name) {
+  std::size_t place = 0;
+  for (std::size_t open = english.find('{'); open != std::string_view::npos;
+       open = english.find('{', open + 1)) {
+    const auto here = english.substr(open + 1, english.find('}', open) - open - 1);
+    if (here == name)
+      return place;
+    // A name that appeared before has its place already.
+    if (english.find(english.substr(open, here.size() + 2)) == open)
+      ++place;
+  }
+  return place;
+}
+
+/// Text that fills a hole: source, or a name.
+struct Words {
+  Words(std::string_view given) : words(given) {}
+  Words(std::string given) : words(std::move(given)) {}
+  Words(const char* given) : words(given) {}
+  Words(char given) : words(1, given) {}
+  template <std::integral Number>
+  Words(Number given) : words(std::to_string(given)) {}
+  std::string words;
+};
+
+/// A whole number that fills a hole.
+struct Figure {
+  template <std::integral Number>
+  Figure(Number given) : words(std::to_string(given)) {}
+  std::string words;
+};
+
+/// A row of a table of texts, with what it takes: a function that makes messages.
+template <Hole... Kinds>
+struct Row : Text {
+  consteval Row(std::string_view name, std::string_view words) : Text{name, words} {
+    check(words, {Kinds...});
+  }
+
+  template <Hole Kind>
+  using Argument = std::conditional_t<Kind == Hole::Part, Message,
+                                      std::conditional_t<Kind == Hole::Number, Figure, Words>>;
+
+  Message operator()(Argument<Kinds>... fillers) const {
+    std::vector<Message> all;
+    all.reserve(sizeof...(Kinds));
+    (all.push_back(filler(std::move(fillers))), ...);
+    return {*this, std::move(all)};
+  }
+
+private:
+  static Message filler(Message message) { return message; }
+  static Message filler(Words given) { return Message::as_is(std::move(given.words)); }
+  static Message filler(Figure given) { return Message::as_is(std::move(given.words)); }
+
+  /// Code is in backticks, and nothing else is; a kind for each hole.
+  static consteval void check(std::string_view words, std::initializer_list<Hole> kinds) {
+    std::size_t holes = 0;
+    for (auto open = words.find('{'); open != std::string_view::npos;
+         open = words.find('{', open + 1)) {
+      const auto name = words.substr(open, words.find('}', open) - open + 1);
+      if (words.find(name) != open)
+        continue;
+      if (holes == kinds.size())
+        throw "a hole has no kind";
+      bool in_code = false;
+      for (const auto c : words.substr(0, open))
+        in_code = in_code != (c == '`');
+      const auto kind = kinds.begin()[holes++];
+      if (in_code ? kind != Hole::Code && kind != Hole::Number : kind == Hole::Code)
+        throw "code is in backticks, and nothing else is";
+    }
+    if (holes != kinds.size())
+      throw "a kind has no hole";
+  }
+};
+
+} // namespace orb

@@ -1,0 +1,140 @@
+#pragma once
+
+// What stands behind a word of a line, as data. Tables of words have it in a column; one reader
+// (base/cursor.h) reads all of them, and one printer describes them.
+
+#include "base/texts.h"
+#include "base/units.h"
+
+#include <array>
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace orb {
+
+/// A value of a line.
+struct Slot {
+  enum class Kind : std::uint8_t {
+    Number,
+    Whole,
+    Length,   ///< with a unit
+    Range,    ///< `A..B`, with a unit where there are several
+    Time,     ///< with a unit
+    TimeSpan, ///< `TIME..TIME`
+    Place,    ///< `X,Y`
+    Axis,     ///< `x>70`
+    Text,     ///< in quotes
+    Match,    ///< a text, a part of one, or a pattern
+    File,
+    Choice, ///< one of a few words
+    Zone,   ///< what its language looks up, in quotes or not, as are the next three
+    Macro,
+    Variable, ///< ends at a `=`, too
+    Word,
+    Version,
+    Firmware,
+    Seeds,
+    Colour, ///< a word, or `#RRGGBB`
+    Rest,   ///< its language reads it
+  };
+  Kind kind = Kind::Rest;
+  std::string_view shown;        ///< in a description of the line: `TIME`
+  const Row<>* called = nullptr; ///< in a message
+  std::int64_t least = 0;        ///< of numbers
+  std::int64_t most = 0;
+  std::span<const Unit> units{}; ///< values count in the first
+  std::string_view usual{};      ///< what is mostly written; may be empty
+  std::string_view words{};      ///< of a choice, with `|` between two; in place of a time; the
+                                 ///< signs of an axis
+  std::string_view before{};     ///< the word, or sign, in front of it
+  bool may_lack = false;         ///< always with a word in front, but for a Rest
+  bool repeats = false;
+
+  Message name() const { return (*called)(); }
+  /// The words of a choice.
+  std::vector<std::string_view> choices() const;
+  /// Whether its numbers have a least and a greatest.
+  constexpr bool is_limited() const { return least != most; }
+
+  constexpr Slot after(std::string_view word) const {
+    auto slot = *this;
+    slot.before = word;
+    return slot;
+  }
+  constexpr Slot like(std::string_view text) const {
+    auto slot = *this;
+    slot.usual = text;
+    return slot;
+  }
+  constexpr Slot or_none() const {
+    auto slot = *this;
+    slot.may_lack = true;
+    return slot;
+  }
+};
+
+/// All that stands behind a word.
+struct Slots {
+  static constexpr std::size_t most = 4;
+
+  template <std::same_as<Slot>... All>
+  constexpr Slots(All... each) : all{each...}, count(sizeof...(All)) {}
+
+  constexpr const Slot* begin() const { return all.data(); }
+  constexpr const Slot* end() const { return all.data() + count; }
+  constexpr const Slot& operator[](std::size_t i) const { return all[i]; }
+  constexpr std::size_t size() const { return count; }
+  constexpr bool empty() const { return count == 0; }
+
+  std::array<Slot, most> all;
+  std::size_t count;
+};
+
+/// What a number or a word must be: `the heading must be 0 to 359`.
+Message must_be(const Slot& slot);
+
+/// How it is written: `X,Y by LENGTH`, `FILE [at X,Y]`.
+std::string usage(const Slots& slots);
+
+/// A word and what stands behind it.
+std::string usage(std::string_view word, const Slots& slots);
+
+/// What many tables have.
+namespace slot {
+
+using Kind = Slot::Kind;
+
+constexpr Slot whole(std::string_view shown, const Row<>& called, std::int64_t least,
+                     std::int64_t most) {
+  return {Kind::Whole, shown, &called, least, most};
+}
+constexpr Slot number(std::string_view shown, const Row<>& called, std::int64_t least,
+                      std::int64_t most) {
+  return {Kind::Number, shown, &called, least, most};
+}
+/// One of several words, as `on|off`.
+constexpr Slot choice(std::string_view words, const Row<>& called) {
+  return {.kind = Kind::Choice, .shown = words, .called = &called, .words = words};
+}
+constexpr Slot word(Kind kind, std::string_view shown, const Row<>& called) {
+  return {kind, shown, &called};
+}
+/// What its language reads by itself, where it stands among others.
+constexpr Slot rest(std::string_view shown) {
+  return {Kind::Rest, shown};
+}
+constexpr Slot axis(std::string_view shown, std::string_view signs, std::string_view usual) {
+  return {.kind = Kind::Axis, .shown = shown, .usual = usual, .words = signs};
+}
+
+inline constexpr Slot time{Kind::Time, "TIME", &texts::Time};
+inline constexpr Slot place{Kind::Place, "X,Y"};
+inline constexpr Slot file{Kind::File, "FILE", &texts::FileName};
+
+} // namespace slot
+} // namespace orb

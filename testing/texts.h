@@ -1,0 +1,13 @@
+#pragma once
+
+#include "base/texts.h"
+
+/// What `orb test` says: `texts::NotText(file)`.
+namespace orb::testing::texts {
+
+using namespace orb::texts;
+
+#define ORB_TEXTS "testing/texts.def"
+#include "base/texts.inc"
+
+} // namespace orb::testing::texts
