@@ -11,6 +11,7 @@ import { Verdicts } from "./page/verdicts.js";
 import { $, announce, close_dialogs, element, button, say, download, with_code, on_demand, show_trouble } from "./page/dom.js";
 import { watch_engines } from "./page/engines.js";
 import { speak } from "./page/language.js";
+import { learn } from "./page/said.js";
 import { as_workspace, lesson_after, load_library, mark_done, show_library, show_task } from "./page/library.js";
 import { set_up_mine } from "./page/mine.js";
 import { address_of, set_up_share } from "./page/share.js";
@@ -24,6 +25,7 @@ import { AddressError, checked, empty, first_error, from_fragment, keep, kept, k
 const worker_url = new URL("./worker.js", import.meta.url);
 const early = globalThis.orb_workers;
 const language = new Client(worker_url, early?.language), machine = new Client(worker_url, early?.machine);
+for (const client of [language, machine]) client.on("said", learn);
 
 let workspace = empty();
 window.addEventListener("beforeprint", () => fill_sheet(workspace));

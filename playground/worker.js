@@ -39,6 +39,7 @@ function set_clock(changes) {
 function tick() {
   try {
     const { over, frame } = engine.call("live_advance", { ms: robot_now() });
+    if (frame.faults.length) post_said();
     post("frame", frame);
     if (over) end();
     else clock.timer = setTimeout(tick, frame_ms);
@@ -58,6 +59,7 @@ function end() {
     if (!(error instanceof OrbError)) throw error;
     answer = { ending: { words: error.message } }; // such as a macro that the robot refused
   }
+  post_said();
   post("end", answer);
 }
 
@@ -80,13 +82,21 @@ const own = {
   speed: ({ factor }) => set_clock({ speed: factor }),
 };
 
+/** Tells what the last answers are made of, so that the page can say them in its language. */
+function post_said() {
+  const said = engine.call("said");
+  if (Object.keys(said).length) post("said", said);
+}
+
 function answer({ id, method, params = {} }) {
   try {
     const result = Object.hasOwn(own, method) ? own[method](params) : engine.call(method, params);
+    post_said();
     postMessage({ id, result });
   } catch (error) {
     // Not an answer of orb: after that nothing in its memory can be relied on.
     if (!(error instanceof OrbError)) post("broken", { message: error instanceof Missing ? error.message : `${method}: ${error.message}` });
+    else post_said();
     postMessage({ id, error: { code: error.code ?? 70, message: error.message, findings: error.findings } });
   }
 }

@@ -1,4 +1,5 @@
-// How texts are said in another language: by the same files and the same rules as base/catalogue.h.
+// How texts are said in another language, by the same files as base/catalogue.h. What the engine says is looked up by what it is
+// made of; a text that the page puts together is found by its key, and the holes by what stands in them.
 
 /** Names and figures, which every language has alike: `heading`, `90 ms`, `red, green, blue`. */
 const names_and_figures = /^(?:(?:[-\d.]+|\S*,) )*\S+$/;
@@ -15,10 +16,13 @@ function template(english, translation) {
   return { pattern: new RegExp(`^${pattern}$`, "s"), holes, translation, fixed: english.replace(/\{\w+\}/g, "").length };
 }
 
-/** `texts`: English keys and their translations. The answer says a text in that language, and is undefined where it cannot. */
-export function make_catalogue(texts) {
-  const rows = Object.entries(texts), whole = new Map(rows.filter(([english]) => !english.includes("{")));
-  const templates = rows.filter(([english]) => english.includes("{")).map(row => template(...row)).sort((a, b) => b.fixed - a.fixed);
+const fill = (translation, filled) => translation.replace(/\{(\w+)\}/g, (_, name) => filled[name]);
+
+/** `texts`: English keys and their translations, those of findings and those of the page; `made_of`: what sentences of the engine are
+ *  made of. The answer says a text in that language, and is undefined where it cannot. */
+export function make_catalogue({ findings = {}, page = {} }, made_of = new Map()) {
+  const whole = new Map(Object.entries({ ...findings, ...page }));
+  const templates = Object.entries(page).filter(([english]) => english.includes("{")).map(row => template(...row)).sort((a, b) => b.fixed - a.fixed);
   function fillers({ holes }, found) {
     const filled = {};
     for (const [i, { name, before }] of holes.entries()) {
@@ -28,11 +32,19 @@ export function make_catalogue(texts) {
     }
     return filled;
   }
+  const put_together = ([english, ...fillers], text, say) => {
+    const names = [...new Set(Array.from(english.matchAll(/\{(\w+)\}/g), ([, name]) => name))];
+    return fill(text, Object.fromEntries(names.map((name, i) => [name, say(fillers[i])])));
+  };
+  const in_english = parts => typeof parts === "string" ? parts : put_together(parts, parts[0], in_english);
+  const say = parts => typeof parts !== "string" && whole.has(parts[0]) ? put_together(parts, whole.get(parts[0]), say) : in_english(parts);
   function find(english) {
     if (whole.has(english)) return whole.get(english);
+    const parts = made_of.get(english);
+    if (parts) return whole.has(parts[0]) ? say(parts) : undefined;
     for (const one of templates) {
       const found = one.pattern.exec(english), filled = found && fillers(one, found);
-      if (filled) return one.translation.replace(/\{(\w+)\}/g, (_, name) => filled[name]);
+      if (filled) return fill(one.translation, filled);
     }
     return undefined;
   }

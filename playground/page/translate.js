@@ -3,6 +3,7 @@
 
 import { make_catalogue } from "./catalogue.js";
 import { say_anew, speak_with } from "./dom.js";
+import { made_of } from "./said.js";
 
 const attributes = ["title", "aria-label", "placeholder", "alt"];
 /** What somebody wrote or a program said; and blocks, which are made in the language. */
@@ -48,7 +49,7 @@ const observer = new MutationObserver(records => {
 
 /** Says the page in that language from now on. `texts`: English ones and their translations; none for English. */
 export function translate(code, texts) {
-  find = make_catalogue(texts);
+  find = make_catalogue(texts, made_of);
   speak_with(text => find(text) ?? text);
   document.documentElement.lang = code;
   say_anew();

@@ -46,8 +46,8 @@ writeFileSync(join(out, "blocks.css"), styled("playground/page/blocks/blocks.css
 // The page in each language: the texts of all its parts in one file.
 mkdirSync(join(out, "languages"), { recursive: true });
 for (const name of readdirSync(join(root, "translations")).filter(name => name.endsWith(".json"))) {
-  const { language, ...parts } = JSON.parse(read(`translations/${name}`));
-  writeFileSync(join(out, "languages", name), JSON.stringify(Object.assign({}, ...Object.values(parts))));
+  const { language, findings, ...parts } = JSON.parse(read(`translations/${name}`));
+  writeFileSync(join(out, "languages", name), JSON.stringify({ findings, page: Object.assign({}, ...Object.values(parts)) }));
 }
 // The pointers and marks of Blockly; it makes no sounds here.
 mkdirSync(join(out, "blocks"), { recursive: true });

@@ -66,9 +66,9 @@ class Languages(unittest.TestCase):
         shutil.copytree(folder, cls.copy, dirs_exist_ok=True, ignore=lambda place, names: ["docs", "sw.js"] if place == folder else [])
         path = os.path.join(cls.copy, "languages/de.json")
         with open(path, encoding="utf-8") as file:
-            texts = json.load(file)
+            parts = json.load(file)
         with open(path, "w", encoding="utf-8") as file:
-            json.dump({key: pseudo(key) for key in texts}, file)
+            json.dump({part: {key: pseudo(key) for key in texts} for part, texts in parts.items()}, file)
         cls.pseudo = site_server.Site(cls.copy)
         cls.browser = chromium.Browser(chromium.find())
 

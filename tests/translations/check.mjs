@@ -72,9 +72,9 @@ for (const section of ["page", "blocks", "verdicts"])
   for (const key of keys[section])
     for (const piece of section === "verdicts" ? words(key) : pieces(key)) if (!source.includes(piece)) trouble(section, `no source says “${piece}”: ${key}`);
 
-// ---- the rules by which texts are found are those of base/catalogue.h ----
-const { texts, cases } = JSON.parse(read("tests/translations/cases.json"));
-const find = make_catalogue(texts);
+// ---- the rules by which texts of the page are found ----
+const { texts, said, cases } = JSON.parse(read("tests/translations/cases.json"));
+const find = make_catalogue({ page: texts }, new Map(Object.entries(said)));
 for (const [english, expected] of cases) if ((find(english) ?? null) !== expected) trouble("catalogue.js", `“${english}” is said “${find(english)}”, not “${expected}”`);
 
 for (const one of troubles) console.log(one);
