@@ -1,6 +1,9 @@
 #include "base/catalogue.h"
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
+#include <utility>
+#include <vector>
 
 namespace orb {
 namespace {
@@ -39,17 +42,28 @@ std::optional<Catalogue> Catalogue::marked(std::string_view json) {
   return catalogue;
 }
 
-std::string Catalogue::say(const Message& message) const {
+std::optional<std::string> Catalogue::find(const Message& message) const {
   const auto* text = message.text();
   const auto known = texts_.find(text == nullptr ? message.words() : std::string(text->english));
   if (known == texts_.end())
-    return in_english(message);
+    return std::nullopt;
   if (text == nullptr)
     return known->second;
+  std::vector<std::string> fillers;
+  for (const auto& filler : message.fillers()) {
+    const auto said = filler.text() == nullptr ? filler.words() : find(filler);
+    if (!said)
+      return std::nullopt;
+    fillers.push_back(*said);
+  }
   return with_holes_filled(known->second, [&](std::string_view name) {
-    const auto& filler = message.fillers()[place_of_hole(text->english, name)];
-    return filler.text() == nullptr ? filler.words() : say(filler);
+    const auto place = place_of_hole(text->english, name);
+    return place < fillers.size() ? fillers[place] : fmt::format("{{{}}}", name);
   });
+}
+
+std::string Catalogue::say(const Message& message) const {
+  return find(message).value_or(in_english(message));
 }
 
 } // namespace orb

@@ -18,11 +18,14 @@ public:
   /// The pseudo-locale of such a file: each text in English, between `⟦` and `⟧`.
   static std::optional<Catalogue> marked(std::string_view json);
 
-  /// The message in that language; where the catalogue does not have its text, in English. Words
-  /// as they are, such as the title of a test, are looked up as a whole.
+  /// The message in that language; in English where the catalogue does not have its text, or one
+  /// that is a part of it. Words as they are, such as the title of a test, are looked up as a
+  /// whole.
   std::string say(const Message& message) const;
 
 private:
+  std::optional<std::string> find(const Message& message) const;
+
   std::unordered_map<std::string, std::string> texts_;
 };
 

@@ -33,9 +33,10 @@ Message missing(const Slot& slot) {
     return texts::NeedsBounds(slot.name());
   const auto words = slot.choices();
   return slot.kind == Kind::Choice ? texts::MissingEither(slot.name(), words.front(), words.back())
-         : slot.is_limited()       ? texts::MissingRange(slot.name(), slot.least, slot.most)
-         : slot.kind == Kind::Number ? texts::MissingNumber(slot.name())
-                                     : texts::MissingValue(slot.name());
+         : slot.is_limited() && !slot.is_any()
+             ? texts::MissingRange(slot.name(), slot.least, slot.most)
+         : slot.is_any() || slot.kind == Kind::Number ? texts::MissingNumber(slot.name())
+                                                      : texts::MissingValue(slot.name());
 }
 
 /// What is mostly written.
@@ -256,8 +257,7 @@ void Cursor::read_number(const Slot& slot, SlotValue& value) {
       (slot.is_limited() &&
        (*number < static_cast<double>(slot.least) || *number > static_cast<double>(slot.most)))) {
     go_back_to(from);
-    const bool any = slot.least == INT32_MIN && slot.most == INT32_MAX;
-    return wrong(slot, any && !number ? texts::MustBeNumber(slot.name()) : must_be(slot));
+    return wrong(slot, slot.is_any() && !number ? texts::MustBeNumber(slot.name()) : must_be(slot));
   }
   if (std::abs(*number) > most_number && !slot.is_limited())
     fail_at(span_from(from), *value_, texts::TooLarge(slot.name()));

@@ -60,6 +60,8 @@ struct Slot {
   std::vector<std::string_view> choices() const;
   /// Whether its numbers have a least and a greatest.
   constexpr bool is_limited() const { return least != most; }
+  /// Whether any number of the robot will do.
+  constexpr bool is_any() const { return least == INT32_MIN && most == INT32_MAX; }
 
   constexpr Slot after(std::string_view word) const {
     auto slot = *this;
@@ -85,6 +87,7 @@ struct Slots {
   template <std::same_as<Slot>... All>
   constexpr Slots(All... each) : all{each...}, count(sizeof...(All)) {}
 
+  constexpr const Slot* data() const { return all.data(); }
   constexpr const Slot* begin() const { return all.data(); }
   constexpr const Slot* end() const { return all.data() + count; }
   constexpr const Slot& operator[](std::size_t i) const { return all[i]; }

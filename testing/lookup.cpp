@@ -1,6 +1,6 @@
 #include "testing/lookup.h"
 
-#include "base/text/suggest.h"
+#include "base/meant.h"
 #include "spec/limits.h"
 #include "testing/text/rules.h"
 #include "testing/texts.h"
@@ -16,9 +16,8 @@ namespace {
 /// What there is in place of a name that there is not.
 Message meant(std::string_view word, const std::vector<std::string_view>& known,
               const Row<>& none) {
-  if (const auto near = closest(word, known); near && *near != word)
-    return texts::DidYouMean(*near);
-  return known.empty() ? none() : texts::ItHas(fmt::format("{}", fmt::join(known, ", ")));
+  return meant_or(word, known,
+                  known.empty() ? none() : texts::ItHas(fmt::format("{}", fmt::join(known, ", "))));
 }
 
 std::vector<std::string_view> variables_of(const structured::Compiled& compiled) {

@@ -144,7 +144,7 @@ tl::expected<void, Problem> Run::apply(const std::string& line) {
   const Source source("stimulus", is_wall ? line : "at 0s " + line);
   const auto script = vm::parse_stimulus(source);
   if (!script.diagnostics.empty())
-    return refuse(ExitCode::BadInput, in_english(script.diagnostics.front().message));
+    return refuse(ExitCode::BadInput, say_(script.diagnostics.front().message));
   for (const auto& event : script.events) {
     live_->apply(event.stimulus);
     // What somebody does by hand is part of the world: nobody says later that it never came.

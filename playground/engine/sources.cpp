@@ -89,7 +89,7 @@ Answer tree(Request& request) {
   if (&service_of(file) != &editor::structured_service)
     return refuse(ExitCode::Usage, fmt::format("{} is no structured program", file.path));
   if (const auto refused = compiler::refuse_text(file.source.text()))
-    return refuse(ExitCode::BadInput, in_english(refused->message));
+    return refuse(ExitCode::BadInput, request.said.say()(refused->message));
   return editor::structured_tree(file.source.text());
 }
 

@@ -40,6 +40,7 @@ tl::expected<testing::Suite, Problem> make_suite(Request& request,
 
 testing::SuiteOptions suite_options(const Request& request) {
   testing::SuiteOptions options;
+  options.say = request.said.say();
   options.programs = request.texts("programs");
   options.only = request.text("only");
   if (const auto seeds = request.text("seeds"); !seeds.empty())
@@ -62,6 +63,7 @@ Answer test(Request& request) {
 
 Answer replay(Request& request) {
   testing::SuiteOptions options;
+  options.say = request.said.say();
   options.only = request.text("test");
   if (const auto program = request.text("program"); !program.empty())
     options.programs = {program};

@@ -36,12 +36,12 @@ export function make_catalogue({ findings = {}, page = {} }, made_of = new Map()
     const names = [...new Set(Array.from(english.matchAll(/\{(\w+)\}/g), ([, name]) => name))];
     return fill(text, Object.fromEntries(names.map((name, i) => [name, say(fillers[i])])));
   };
-  const in_english = parts => typeof parts === "string" ? parts : put_together(parts, parts[0], in_english);
-  const say = parts => typeof parts !== "string" && whole.has(parts[0]) ? put_together(parts, whole.get(parts[0]), say) : in_english(parts);
+  const is_known = parts => typeof parts === "string" || whole.has(parts[0]) && parts.slice(1).every(is_known);
+  const say = parts => typeof parts === "string" ? parts : put_together(parts, whole.get(parts[0]), say);
   function find(english) {
     if (whole.has(english)) return whole.get(english);
     const parts = made_of.get(english);
-    if (parts) return whole.has(parts[0]) ? say(parts) : undefined;
+    if (parts) return is_known(parts) ? say(parts) : undefined;
     for (const one of templates) {
       const found = one.pattern.exec(english), filled = found && fillers(one, found);
       if (filled) return fill(one.translation, filled);

@@ -8,8 +8,9 @@ export function learn(said) {
     made_of.delete(sentence);
     made_of.set(sentence, parts);
   }
+  const limit = Math.max(most, Object.keys(said).length);
   for (const oldest of made_of.keys()) {
-    if (made_of.size <= most) break;
+    if (made_of.size <= limit) break;
     made_of.delete(oldest);
   }
 }

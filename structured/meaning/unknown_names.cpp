@@ -1,5 +1,6 @@
 #include "structured/meaning/unknown_names.h"
 
+#include "base/meant.h"
 #include "base/text/suggest.h"
 #include "structured/text/blocks.h"
 #include "structured/text/messages.h"
@@ -65,10 +66,8 @@ void UnknownNames::report(const Node& node, bool needs_declaration) {
 void UnknownNames::report_colour(Span span) {
   const auto names = colour_names();
   const auto name = program_.text_of(span);
-  const auto meant = closest(name, names);
   add(rules::UnknownName, span, texts::NeitherColourNorVariable(name),
-      meant ? texts::DidYouMean(*meant)
-            : texts::ColoursAre(fmt::format("{}", fmt::join(names, ", "))));
+      meant_or(name, names, texts::ColoursAre(fmt::format("{}", fmt::join(names, ", ")))));
 }
 
 void UnknownNames::report_word(Span span) {

@@ -33,7 +33,8 @@ void FileReader::read_ball(Cursor& cursor) {
   if (find_word<ExpectationInfo>(expectations, name) != nullptr || is_when(name) || is_join(name))
     return cursor.fail_at(span, rules::Name, file_texts::ReservedInTests(name),
                           file_texts::OtherBallName());
-  const auto values = cursor.read(std::span(info(LineWord::Ball).slots).subspan(1));
+  const auto& slots = info(LineWord::Ball).slots;
+  const auto values = cursor.read(std::span(slots.data() + 1, slots.size() - 1));
   if (!cursor.failed())
     file_.balls.push_back(
         {{name, span}, named(values[0]), {{values[1].least, values[1].most}, values[2].most}});

@@ -1,5 +1,7 @@
 #include "testing/text/file_reader.h"
 
+#include "base/meant.h"
+
 namespace orb::testing {
 
 void FileReader::read_file(Cursor& cursor, const Slot& slot, std::optional<Named>& into) {

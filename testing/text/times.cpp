@@ -1,5 +1,7 @@
 #include "testing/text/file_reader.h"
 
+#include "base/meant.h"
+
 namespace orb::testing {
 
 bool FileReader::is_when(std::string_view word) {

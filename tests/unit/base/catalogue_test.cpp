@@ -27,6 +27,8 @@ TEST(Catalogue, LeavesWordsInHolesAsTheyAre) {
 
 TEST(Catalogue, SaysInEnglishWhatItDoesNotHave) {
   EXPECT_EQ(german.say(texts::WriteLike("end")), "write it like `end`");
+  EXPECT_EQ(german.say(texts::WriteBecause("end", texts::RemoveLine())),
+            "write `end`; remove the line"); // not half in German
   EXPECT_EQ(german.say({}), "");
 }
 
