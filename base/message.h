@@ -23,7 +23,6 @@ enum class Hole : std::uint8_t {
 
 /// What people can be told: a row of a table of texts (base/texts.inc).
 struct Text {
-  std::string_view id;      ///< the name of the row
   std::string_view english; ///< with a named hole, `{word}`, for each part that differs
 };
 
@@ -114,9 +113,7 @@ struct Figure {
 /// A row of a table of texts, with what it takes: a function that makes messages.
 template <Hole... Kinds>
 struct Row : Text {
-  consteval Row(std::string_view name, std::string_view words) : Text{name, words} {
-    check(words, {Kinds...});
-  }
+  explicit consteval Row(std::string_view words) : Text{words} { check(words, {Kinds...}); }
 
   template <Hole Kind>
   using Argument = std::conditional_t<Kind == Hole::Part, Message,

@@ -57,7 +57,7 @@ TEST(Message, IsComparedByItsTextAndWhatFillsIt) {
 }
 
 TEST(Message, FillsAHoleThatIsNamedTwice) {
-  static constexpr Row<Hole::Code, Hole::Code> twice{"Twice", "`{a}`, `{b}`, `{a}`"};
+  static constexpr Row<Hole::Code, Hole::Code> twice{"`{a}`, `{b}`, `{a}`"};
   EXPECT_EQ(in_english(twice("x", 1)), "`x`, `1`, `x`");
 }
 
