@@ -374,8 +374,9 @@ void Cursor::read_axis(const Slot& slot, SlotValue& value) {
   const bool has_sign = is_axis && value.which != std::string_view::npos;
   at_ += has_sign ? 1 : 0;
   const auto number = has_sign ? digits() : std::nullopt;
+  const auto farthest = slot.is_limited() ? static_cast<double>(slot.most) : most_number;
   // Without a unit there are no blanks either.
-  if (!number || std::abs(*number) > most_number ||
+  if (!number || std::abs(*number) > farthest ||
       (slot.units.empty() && span_from(from).size() != all.size())) {
     go_back_to(from);
     return wrong(slot, texts::LineSuchAs(slot.usual));

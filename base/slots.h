@@ -44,7 +44,7 @@ struct Slot {
   };
   Kind kind = Kind::Rest;
   std::string_view shown;        ///< in a description of the line: `TIME`
-  const Row<>* called = nullptr; ///< in a message
+  const Row<>* called = nullptr; ///< in a message; null only for a Place, an Axis and a Rest
   std::int64_t least = 0;        ///< of numbers
   std::int64_t most = 0;
   std::span<const Unit> units{}; ///< values count in the first
@@ -130,9 +130,6 @@ constexpr Slot word(Kind kind, std::string_view shown, const Row<>& called) {
 /// What its language reads by itself, where it stands among others.
 constexpr Slot rest(std::string_view shown) {
   return {Kind::Rest, shown};
-}
-constexpr Slot axis(std::string_view shown, std::string_view signs, std::string_view usual) {
-  return {.kind = Kind::Axis, .shown = shown, .usual = usual, .words = signs};
 }
 
 inline constexpr Slot time{Kind::Time, "TIME", &texts::Time};

@@ -91,7 +91,13 @@ using namespace orb::slot;
 
 inline constexpr Slot heading = whole("HEADING", texts::Heading, 0, spec::ball::full_circle - 1);
 inline constexpr Slot on_off = choice("on|off", texts::State);
-inline constexpr Slot wall = axis("x=CM|y=CM", "=", "x=70");
+constexpr int farthest_wall = 1'000'000; // cm; arithmetic on it stays exact
+inline constexpr Slot wall{.kind = Kind::Axis,
+                           .shown = "x=CM|y=CM",
+                           .least = -farthest_wall,
+                           .most = farthest_wall,
+                           .usual = "x=70",
+                           .words = "="};
 
 constexpr Slot byte(std::string_view shown, const Row<>& called) {
   return whole(shown, called, 0, spec::ball::greatest);
