@@ -7,6 +7,18 @@
 // The balls of a room.
 
 namespace orb::testing {
+namespace {
+
+/// Whether a word of tests could stand where a ball's name does.
+bool is_reserved(std::string_view word) {
+  const auto words = operand_words();
+  return find_word<ExpectationInfo>(expectations, word) != nullptr ||
+         find_word<WordInfo>(when_words, word) != nullptr ||
+         find_word<WordInfo>(join_words, word) != nullptr ||
+         std::find(words.begin(), words.end(), word) != words.end();
+}
+
+} // namespace
 
 namespace {
 
@@ -30,7 +42,7 @@ void FileReader::read_ball(Cursor& cursor) {
   if (ball_called(name))
     return cursor.fail_at(span, rules::Name, file_texts::OtherBallCalled(name),
                           file_texts::OwnName());
-  if (find_word<ExpectationInfo>(expectations, name) != nullptr || is_when(name) || is_join(name))
+  if (is_reserved(name))
     return cursor.fail_at(span, rules::Name, file_texts::ReservedInTests(name),
                           file_texts::OtherBallName());
   const auto& slots = info(LineWord::Ball).slots;
