@@ -3,7 +3,6 @@
 #include "assembler/text/rules.h"
 #include "assembler/text/texts.h"
 #include "base/text/suggest.h"
-#include "base/text/text.h"
 
 #include <algorithm>
 #include <fmt/format.h>

@@ -2,7 +2,6 @@
 
 #include "repair/word_index.h"
 
-#include <algorithm>
 #include <array>
 #include <string>
 

@@ -80,7 +80,7 @@ struct SuiteOptions {
   std::string only; ///< the one test to run, by its exact name; empty for all
   structured::Shape shape = structured::Shape::Shortest; ///< of structured programs
   std::optional<NamedProfile> ball;                      ///< which robot virtual balls drive like
-  Say say = in_english; ///< how it is said that a program cannot be run
+  Say say = &in_english; ///< how it is said that a program cannot be run
 };
 
 /// A file as it was found: what findings call it, and its text.

@@ -1,4 +1,3 @@
-#include "base/text/text.h"
 #include "compiler/lint/lint_passes.h"
 #include "compiler/lint/reading.h"
 #include "compiler/lint/sensor_tests.h"

@@ -24,15 +24,15 @@ enum class Listing : std::uint8_t { Failures, All };
 
 /// In which language results are told. What programs read, such as JSON, is in English.
 struct Speech {
-  Say say = in_english;
+  Say say = &in_english;
   std::string code = "en"; ///< ISO 639-1
 };
 
 /// For people: failures, a table where several programs were tested, a sentence.
 std::string render_text(const Results& results, Listing listing, Style style,
-                        const Say& say = in_english);
+                        const Say& say = &in_english);
 /// The sentence: `3 of 4 tests passed, 5 of 7 points, 604 runs`.
-std::string render_summary(const Results& results, const Say& say = in_english);
+std::string render_summary(const Results& results, const Say& say = &in_english);
 /// Schema orb.test/1 (docs/testing.md).
 std::string render_json(const Results& results, const Say& say = &in_english);
 /// For CI servers: JUnit XML, as the published schemas want it.

@@ -38,7 +38,7 @@ private:
 };
 
 /// `17, 40 to 52`: seeds that failed, in few words; cut where these are longer in English.
-std::string failed_seeds(const GroupResult& group, const Say& say = in_english,
+std::string failed_seeds(const GroupResult& group, const Say& say = &in_english,
                          std::size_t longest = std::string::npos);
 
 /// The first case that did not pass; null where all did.
