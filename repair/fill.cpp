@@ -163,8 +163,11 @@ Text around_length(const Tokens& middle, const Tokens& tolerance) {
                                   : std::nullopt;
 }
 
-/// A value as a condition: sensors that only know yes and no are compared with yes.
+/// A value as a condition: sensors that only know yes and no are compared with yes. A number asks
+/// nothing.
 Text as_comparison(const Tokens& tokens) {
+  if (tokens.size() == 1 && tokens[0].is_number())
+    return std::nullopt;
   const auto text = join(tokens);
   return text + (holds("dshake isconn cmdroll cmdrgb ctrl", text) ? " = 1" : " ! 0");
 }
@@ -475,7 +478,7 @@ constexpr auto functions = std::to_array<Function>({
     {"groups", [](const Holding& held) { return groups(held.a); }},
     {"span", [](const Holding& held) { return span(held.a, held.b); }},
     {"anyof", [](const Holding& held) { return any_of(held.a, held.b); }},
-    {"true", [](const Holding& held) { return Text(as_comparison(held.a)); }},
+    {"true", [](const Holding& held) { return as_comparison(held.a); }},
     {"dice", [](const Holding& held) { return dice(held.a, held.b, held.language()); }},
     {"below", // the second value is not one of them
      [](const Holding& held) {

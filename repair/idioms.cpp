@@ -366,6 +366,8 @@ void explore(const std::string& line, const Surroundings& around, Bounds bounds,
 }
 
 std::string word_at(const Tokens& line, std::size_t at) {
+  if (at >= line.size())
+    return {}; // `_` has no word in it
   const MatchedLine all(line);
   Matcher matcher(all, line.size(), false);
   std::size_t farthest = at;

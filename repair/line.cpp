@@ -45,6 +45,10 @@ std::string Line::with(std::string_view statement) const {
   if (statement.empty() && comment.empty())
     return {};
   auto text = head;
+  const auto behind = written.substr(std::min(head.size(), written.size()));
+  if (!head.empty() && is_digit(head.back()) && !statement.empty() && !behind.empty() &&
+      !is_letter(behind[0]))
+    text += ' '; // `10) LEDC 1`
   text += statement;
   if (!comment.empty())
     text += (statement.empty() ? "" : " ") + comment;

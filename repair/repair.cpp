@@ -5,6 +5,7 @@
 #include "repair/blocks.h"
 #include "repair/fill.h"
 #include "repair/normalise.h"
+#include "repair/safety.h"
 #include "repair/texts.h"
 #include "repair/trial.h"
 
@@ -88,6 +89,17 @@ bool is_one_of(const Diagnostic& finding, std::initializer_list<Trouble> trouble
   return std::find(troubles.begin(), troubles.end(), finding.rule->trouble) != troubles.end();
 }
 
+/// Whether a line does not parse, or has a word that means nothing.
+bool is_malformed(const Diagnostic& finding, std::string_view line, const Judge& judge) {
+  if (finding.rule->trouble == Trouble::Pattern)
+    return false;
+  if ((judge.language != Language::Basic && judge.language != Language::Structured) ||
+      !judge.parses(line))
+    return true;
+  return is_one_of(finding, {Trouble::UnknownName, Trouble::WrongValue, Trouble::ArgumentCount,
+                             Trouble::ForeignWord, Trouble::ReservedName, Trouble::MalformedLine});
+}
+
 /// Whether a finding is about how its line is written: a line that parses is only looked at where a
 /// word in it means nothing, and a fix of several lines knows better.
 bool is_about_writing(const Diagnostic& finding, const Source& source, const Judge& judge,
@@ -101,13 +113,7 @@ bool is_about_writing(const Diagnostic& finding, const Source& source, const Jud
         return false;
   if (finding.span.end > span.end)
     return false; // it goes on below
-  if (finding.rule->trouble == Trouble::Pattern)
-    return false;
-  if ((judge.language != Language::Basic && judge.language != Language::Structured) ||
-      !judge.parses(text))
-    return true;
-  return is_one_of(finding, {Trouble::UnknownName, Trouble::WrongValue, Trouble::ArgumentCount,
-                             Trouble::ForeignWord, Trouble::ReservedName, Trouble::MalformedLine});
+  return is_malformed(finding, text, judge);
 }
 
 std::string without_blanks(std::string text) {
@@ -153,7 +159,7 @@ class Offers {
 public:
   Offers(std::string_view text, const Judge& judge, std::vector<Diagnostic>& findings)
       : source_({}, std::string(text)), judge_(judge), findings_(findings), before_(findings),
-        scenery_(source_, judge.language) {}
+        scenery_(source_, judge.language), names_(defined_names(source_, judge.language)) {}
 
   void make() {
     if (judge_.language == Language::Basic)
@@ -182,9 +188,38 @@ public:
       close_mended();
     }
     drop_consequences();
+    for (auto& finding : findings_)
+      hold(finding);
   }
 
 private:
+  /// Whether what is written in the place of a line differs from it in its notation alone.
+  bool says_the_same(std::string_view line, std::string_view written) const {
+    return repair::says_the_same(
+        line, written,
+        {judge_.language, judge_.words, names_, judge_.parses,
+         [this](std::string_view label) { return scenery_.number_of(label); }});
+  }
+
+  /// A fix of the language itself that writes another line is for people to take.
+  void hold(Diagnostic& finding) const {
+    const auto at = line_of(finding);
+    std::string line(source_.line(at));
+    if (!keeps_from_building(finding) || !is_safe(finding) || !is_malformed(finding, line, judge_))
+      return;
+    const auto span = source_.line_span(at);
+    const auto& edits = finding.fix->edits;
+    const auto parts = split(line, judge_.language);
+    const bool numbers = edits.back().span.end <= span.begin + parts.head.size() &&
+                         !parts.tokens.empty() && parts.tokens[0].is_word();
+    if (edits.front().span.begin < span.begin || edits.back().span.end > span.end || numbers)
+      return; // of several lines, or a number for the line
+    for (auto edit = edits.rbegin(); edit != edits.rend(); ++edit)
+      line.replace(edit->span.begin - span.begin, edit->span.size(), edit->text);
+    if (!says_the_same(source_.line(at), line))
+      finding.fix->safety = Safety::Unsafe;
+  }
+
   std::uint32_t line_of(const Diagnostic& finding) const {
     return source_.position(finding.span.begin).line;
   }
@@ -692,7 +727,8 @@ private:
     if (const auto own = fixed(line, finding);
         is_safe(finding) && (!own || without_blanks(*own) == without_blanks(found[0].text)))
       return; // its own fix goes as far as it must
-    const bool safe = found[0].sure && (found[0].fewer || is_safe(finding));
+    const bool safe = found[0].sure && (found[0].fewer || is_safe(finding)) &&
+                      says_the_same(line.written, found[0].text);
     const auto safety = safe ? Safety::Safe : Safety::Unsafe;
     if (text.empty()) {
       finding.fix = remove(at, safety);
@@ -728,6 +764,7 @@ private:
   std::vector<Diagnostic>& findings_;
   const std::vector<Diagnostic> before_;
   Scenery scenery_;
+  std::vector<std::string> names_;             ///< that the program defines
   std::set<std::uint32_t> lines_;              ///< looked at
   std::set<const Diagnostic*> mended_;         ///< of `findings_`: with what is offered here
   std::map<std::uint32_t, std::string> texts_; ///< of lines, as they are mended

@@ -39,6 +39,7 @@ public:
     for (std::size_t i = 1; i <= line_.size(); ++i)
       inserted(i);
     closed();
+    prompt();
     std::stable_sort(found_.begin(), found_.end(),
                      [](const Candidate& a, const Candidate& b) { return a.cost < b.cost; });
     return std::move(found_);
@@ -117,8 +118,8 @@ private:
         text.find_first_not_of('0', point + 1) == std::string::npos)
       number_instead(i, text.substr(0, point), 1, 8); // `3.0`, which of times is in seconds
     if (number && i + 1 < line_.size() && line_[i + 1].is_number() && text[0] != '0' &&
-        !line_[0].is("data"))
-      number_instead(i, text + line_[i + 1].text, 2, 5); // `70 0`
+        line_[i + 1].text.find_first_not_of('0') == std::string::npos && !line_[0].is("data"))
+      number_instead(i, text + line_[i + 1].text, 2, 5); // `70 0`: two other numbers are two values
     if (number && goes_on)
       wrong_ending(i);
     letters_for_digits(i, number && goes_on);
@@ -410,6 +411,13 @@ private:
     const bool related = std::any_of(line_.begin(), line_.begin() + static_cast<std::ptrdiff_t>(at),
                                      [](const Token& token) { return token.is_relation(); });
     return condition || !related;
+  }
+
+  /// `> 10 LEDC 1`: copied from where lines are typed.
+  void prompt() {
+    if (language_ == Language::Basic && line_.size() > 2 && line_[0].is(">") &&
+        line_[1].is_number())
+      add(slice(line_, 1), 1);
   }
 
   /// `print hello"`: the quote that opens is missing, or the one that closes is too many.

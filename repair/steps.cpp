@@ -179,7 +179,8 @@ Next one_by_one(Trial& trial) {
   auto begin = tokens.begin();
   for (auto at = begin + 1; at <= tokens.end(); ++at) {
     const Tokens part(begin, at);
-    if ((at != tokens.end() && !begins(at)) || !begins(begin) ||
+    const bool twice = at != tokens.end() && part.size() == 1 && at->text == part[0].text;
+    if (twice || (at != tokens.end() && !begins(at)) || !begins(begin) || // `print print "x"`
         !line.dialect->parses(line.head + join(part)))
       continue;
     lines += (lines.empty() ? "" : "\n") + join(part);

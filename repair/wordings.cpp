@@ -19,8 +19,12 @@ namespace orb::repair {
 /// there.
 void drop_small_words(Line& line) {
   auto& tokens = line.tokens;
+  const auto is_said = [&](const Token& token) { // `print the end`
+    return tokens[0].is("print") && line.knows(token.text) &&
+           !line.dialect->parses(line.head + "print " + token.text);
+  };
   for (std::size_t i = 1; i + 1 < tokens.size(); ++i)
-    if ((tokens[i].is("the") && !line.has_name("the")) ||
+    if ((tokens[i].is("the") && !line.has_name("the") && !is_said(tokens[i + 1])) ||
         (tokens[i].is("and") && tokens[i - 1].is(",")))
       take_out(tokens, i--, 1);
   for (std::size_t i = 2; i < tokens.size(); ++i) { // `side += 2 tenths`, `for n = 1 to 5 seconds`

@@ -575,7 +575,7 @@ private:
                       : grown.step > 0 ? texts::HeadingGrowing(letter, turn - 1)
                                        : texts::HeadingShrinking(letter),
                       texts::Write(bounded));
-    d.fix = single_fix(d.help, sum.span, bounded, heading ? Safety::Safe : Safety::Unsafe);
+    d.fix = single_fix(d.help, sum.span, bounded, Safety::Unsafe);
   }
 
   const Program& program_;

@@ -1,5 +1,6 @@
 #include "compiler/lint/lint_passes.h"
 
+#include "base/text/text.h"
 #include "compiler/text/rules.h"
 #include "spec/limits.h"
 
@@ -42,7 +43,10 @@ private:
                                                "orb check --fix"));
     if (faults_.size() * step > static_cast<std::size_t>(greatest))
       return;
-    d.fix = Fix{texts::NumberTheLines(), {}, Safety::Safe};
+    const bool words = std::all_of(faults_.begin(), faults_.end(), [this](const Fault* fault) {
+      return is_letter(text_of(*fault).front()); // and no number behind a sign: `> 10 LEDC 1`
+    });
+    d.fix = Fix{texts::NumberTheLines(), {}, words ? Safety::Safe : Safety::Unsafe};
     for (std::size_t i = 0; i < faults_.size(); ++i)
       d.fix->edits.push_back(number(*faults_[i], static_cast<std::uint32_t>(i + 1) * step));
   }

@@ -144,7 +144,7 @@ bool ValuesPass::check_loop_range(const Item& value, std::string_view word,
         d.help,
         {{{value.span.begin, value.span.begin}, single ? "" : "("},
          {{value.span.end, value.span.end}, fmt::format("{} % {}", single ? "" : ")", full_turn)}},
-        Safety::Safe};
+        Safety::Unsafe};
   } else if (single && range.hi > parameter.greatest) {
     d.help = texts::EndLoopAt(parameter.greatest);
   }
@@ -221,13 +221,11 @@ bool ValuesPass::check_backward(const StatementNode& statement) {
 }
 
 void ValuesPass::add_missing_go(const StatementNode& statement, const Item& last) {
-  const auto speed = range_of(last);
   auto& d = findings_.add(rules::MissingGo, statement.span, texts::ThirdIsGo());
-  const bool brakes = speed == Range::only(0);
-  const bool known = brakes || speed.lo > 0; // a speed that can be either drives at times
+  const bool brakes = range_of(last) == Range::only(0);
   d.fix = single_fix(texts::AddGoValue(), last.span,
                      fmt::format("{},{}", program_.text_of(last.span), brakes ? 0 : 1),
-                     known ? Safety::Safe : Safety::Unsafe);
+                     Safety::Unsafe); // which of the three is missing nobody knows
 }
 
 void ValuesPass::check_flags(const Item& value) {

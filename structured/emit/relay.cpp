@@ -321,9 +321,7 @@ private:
     told.help =
         texts::Write(fmt::format("{}{}{}", program.text_of({statement.span.begin, there->begin}),
                                  text, program.text_of({there->end, statement.span.end})));
-    told.fix = Fix{told.help,
-                   {{*there, std::move(text)}},
-                   told.rule == &robot::MissingGo ? fix.safety : Safety::Unsafe};
+    told.fix = Fix{told.help, {{*there, std::move(text)}}, Safety::Unsafe};
   }
 
   /// The only number of a statement that is written like one of its line.

@@ -17,24 +17,6 @@ namespace {
 
 using orb::Diagnostic;
 
-std::vector<Diagnostic> findings(Language language, const std::string& text) {
-  const orb::Source source("mistake", text);
-  orb::structured::NoFiles files;
-  std::vector<Diagnostic> found;
-  switch (language) {
-  case Language::Basic: found = orb::compiler::check(text, {}).diagnostics; break;
-  case Language::Structured:
-    found = orb::structured::findings_by_file(
-                orb::structured::compile("mistake", "mistake", text, {}, files).program)
-                .front();
-    break;
-  case Language::Macro: found = orb::assembler::check(source); break;
-  case Language::Test: found = orb::testing::parse(source).diagnostics; break;
-  }
-  orb::sort_by_place(found);
-  return found;
-}
-
 std::string without_blanks(const std::string& text) {
   std::string out;
   bool quoted = false;
@@ -93,6 +75,24 @@ Lines placed(const Lines& program, std::size_t at, std::string line) {
 }
 
 } // namespace
+
+std::vector<Diagnostic> findings(Language language, const std::string& text) {
+  const orb::Source source("mistake", text);
+  orb::structured::NoFiles files;
+  std::vector<Diagnostic> found;
+  switch (language) {
+  case Language::Basic: found = orb::compiler::check(text, {}).diagnostics; break;
+  case Language::Structured:
+    found = orb::structured::findings_by_file(
+                orb::structured::compile("mistake", "mistake", text, {}, files).program)
+                .front();
+    break;
+  case Language::Macro: found = orb::assembler::check(source); break;
+  case Language::Test: found = orb::testing::parse(source).diagnostics; break;
+  }
+  orb::sort_by_place(found);
+  return found;
+}
 
 std::string join(const Lines& lines) {
   std::string text;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/diagnostic.h"
 #include "base/message.h"
 
 #include <cstddef>
@@ -49,6 +50,9 @@ Lines said_of(Language language, const Lines& program);
 
 /// The same in its sentences: what was seen, what helps.
 std::vector<orb::Message> messages_of(Language language, const Lines& program);
+
+/// All findings about a program.
+std::vector<orb::Diagnostic> findings(Language language, const std::string& text);
 
 /// What a program does, as text that can be compared; empty where it has errors.
 std::string meaning(Language language, const Lines& program);
