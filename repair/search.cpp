@@ -116,9 +116,10 @@ private:
     if (number && point != std::string::npos &&
         text.find_first_not_of('0', point + 1) == std::string::npos)
       number_instead(i, text.substr(0, point), 1, 8); // `3.0`, which of times is in seconds
+    constexpr std::size_t group = 3;                  // digits of a thousand: `10 000`
     if (number && i + 1 < line_.size() && line_[i + 1].is_number() && text[0] != '0' &&
-        !line_[0].is("data"))
-      number_instead(i, text + line_[i + 1].text, 2, 5); // `70 0`
+        text.size() <= group && line_[i + 1].text.size() == group && !line_[0].is("data"))
+      number_instead(i, text + line_[i + 1].text, 2, 5);
     if (number && goes_on)
       wrong_ending(i);
     letters_for_digits(i, number && goes_on);
@@ -332,8 +333,12 @@ private:
     if ((line_[i].is_number() && line_[i + 1].is_number()) || line_[i].is("$") ||
         line_[i + 1].is("$"))
       return; // `A$` is a text elsewhere
-    if (line_[i].is(",") && i > 0 && line_[i - 1].is_number() && line_[i + 1].is_number())
-      return; // what parts two numbers
+    const auto parts_numbers = [&](std::size_t at) {
+      return line_[at].is(",") && at > 0 && at + 1 < line_.size() && line_[at - 1].is_number() &&
+             line_[at + 1].is_number();
+    };
+    if (parts_numbers(i) || parts_numbers(i + 1))
+      return;
     if (!(line_[i].kind == Token::Kind::Sign) == !(line_[i + 1].kind == Token::Kind::Sign) &&
         line_[i].kind != Token::Kind::Sign)
       return;

@@ -82,7 +82,7 @@ void FileReader::read_operands(Cursor& cursor, Expectation& one) {
   }
   const auto values = cursor.read(slots);
   for (std::size_t i = 0; i < slots.size(); ++i)
-    if (!cursor.failed() && values[i].is_given())
+    if (values[i].is_given() && (!cursor.failed() || slots[i].kind == slot::Kind::Colour))
       take(cursor, one, slots[i], values[i]);
 }
 
