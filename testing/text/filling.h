@@ -8,6 +8,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -25,11 +26,20 @@ struct Elsewhere {
   bool has_texts = false; ///< lines that begin with a quote, as those below `prints`
 };
 
-/// Moment, as it was said.
+/// When, as it was said.
 struct Moment {
   std::string_view word; ///< `within`, `at`, `during`, `until`, `after`; empty where only a time is
   std::string time;      ///< or `end`
 };
+
+/// A time as test files write it; a number alone is seconds, a large one milliseconds.
+std::string time_of(const Amount& amount);
+
+/// A whole angle from 0 to 359.
+std::string in_circle(const std::string& degrees);
+
+/// The file that a piece names; empty where it names none.
+std::string file_of(const Piece& piece);
 
 /// Puts the pieces of a line into the slots of a word, in whatever order they stand.
 class Filling {
@@ -37,51 +47,45 @@ public:
   Filling(const Pieces& pieces, const Elsewhere& elsewhere)
       : pieces_(pieces), elsewhere_(elsewhere), used_(pieces.size()) {}
 
-  const Pieces& pieces() const { return pieces_; }
   bool is_used(std::size_t at) const { return used_[at]; }
   void use(std::size_t at) { used_[at] = true; }
+  /// Whether nothing was put in that nobody wrote.
   bool is_sure() const { return sure_; }
-  void doubt() { sure_ = false; }
 
   /// The values behind a word, as its slots have them; nothing where one lacks. The word itself may
   /// stand at `subject`.
   std::optional<std::string> fill(const Slots& slots, std::size_t subject);
 
-  /// `3 times`, `1 to 6 times`; empty without. A number alone counts what happens.
-  std::string take_times();
+  std::string take_times(); ///< ` 3 times`, ` 1 to 6 times`; empty without
+  std::string take_count(); ///< the same of a number alone
+  std::string take_name();  ///< of an error; empty without
 
   /// Takes all that says when; false where several do.
   bool take_when(std::optional<Moment>& when, std::string& lasts);
 
-  /// A time in front of `at`, as a stimulus has it; empty without.
-  std::string take_moment(bool takes_time);
+  /// `at 2s `, as a stimulus begins; empty without.
+  std::string take_moment(const Slots& slots);
 
   /// Whether nothing was lost: what is left says nothing, or says again what `word` does.
   bool is_empty(std::string_view word) const;
 
-  /// An amount in one of the units; nothing where it is another measure.
-  std::optional<std::string> written(const Amount& amount, std::span<const Unit> units);
-
-  /// A bare number where a time must stand.
-  std::string time(const Amount& amount);
-
-  /// The word that says what a piece is for: `by` of `by 5`; null without.
-  const Piece* front(std::size_t at) const;
-
 private:
   static constexpr std::size_t none = SIZE_MAX;
 
-  void take(std::size_t at);
-  template <class Fits>
-  std::size_t find(Fits fits) const;
+  /// The word that says what a piece is for: `by` of `by 5`; null without.
+  const Piece* front(std::size_t at) const;
+  bool has_front(std::size_t at, std::string_view meanings) const;
   bool is_free(std::size_t at) const;
   bool is_number(std::size_t at) const;
-  std::size_t amount_for(const Slot& slot) const;
+  template <class Fits>
+  std::size_t find(Fits fits) const;
+  const Piece& take(std::size_t at);
   std::optional<std::string> value(const Slot& slot);
+  std::optional<std::string> written(const Amount& amount, std::span<const Unit> units);
+  std::optional<std::string> number(const Slot& slot);
   std::optional<std::string> place();
   std::optional<std::string> side(const Slot& slot);
   std::optional<std::string> name();
-  std::optional<std::string> number(const Slot& slot);
   std::optional<std::string> range(const Slot& slot);
   std::optional<std::string> colour();
   std::optional<std::string> seeds();
@@ -90,7 +94,7 @@ private:
   const Elsewhere& elsewhere_;
   std::vector<bool> used_;
   std::size_t subject_ = none;
-  std::size_t by_ = none; ///< of a place
+  std::size_t by_ = none; ///< the tolerance of a place
   bool sure_ = true;
 };
 
