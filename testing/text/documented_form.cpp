@@ -24,7 +24,7 @@ struct State {
   const ExpectationInfo* row = nullptr; ///< of the first of several
   std::string text;
   std::string lasts; ///< of `for 2s`
-  std::optional<Moment> when;
+  std::optional<SaidWhen> when;
   std::vector<std::string> more; ///< what needs lines of its own
   bool sure = true;
 };
@@ -138,8 +138,6 @@ public:
 private:
   /// What pieces expect that nothing joins. `like` is what was expected before.
   std::optional<State> single(const Pieces& pieces, const ExpectationInfo* like) {
-    if (--budget_ < 0)
-      return std::nullopt;
     for (std::size_t i = 0; i < pieces.size(); ++i)
       for (const auto meaning : pieces[i].meanings) {
         const bool reach = meaning == info(LineWord::Reach).word;
@@ -164,7 +162,9 @@ private:
   }
 
   std::optional<State> filled(const Pieces& pieces, const ExpectationInfo& row, std::size_t subject,
-                              std::string_view word) const {
+                              std::string_view word) {
+    if (--budget_ < 0)
+      return std::nullopt;
     Filling filling(pieces, elsewhere_);
     const bool variable = &row == &info(Word::Variable);
     const auto values = filling.fill(row.slots, subject);
@@ -178,11 +178,11 @@ private:
     auto times = row.kind == Kind::Event ? filling.take_times() : std::string();
     if (!filling.take_when(state.when, state.lasts))
       return std::nullopt;
-    if (row.kind == Kind::Event && times.empty() && depth_ == 0)
+    if (row.kind == Kind::Event && times.empty() && depth_ == 0 && &row != &info(Word::Error))
       times = filling.take_count();
     state.text += times;
     if (variable)
-      state.when = Moment{"at", "end"};
+      state.when = SaidWhen{"at", "end"};
     state.sure = filling.is_sure() && (subject != SIZE_MAX || &row != &info(Word::Inside));
     return filling.is_empty(word) ? std::optional(state) : std::nullopt;
   }
@@ -193,7 +193,7 @@ private:
     if (piece.is(Piece::Sign))
       return piece.text == "," && (!next.colour.empty() || next.is(Piece::Text) || expects(next));
     return piece.means_any("and before then until") || (piece.means("after") && !next.is_time()) ||
-           (never_ && equal_words(piece.text, "or"));
+           (never_ && equal_words(piece.text, "or") && expects(next));
   }
 
   /// What pieces expect, perhaps several things: at once, or one before the other.
@@ -254,7 +254,7 @@ private:
     return state;
   }
 
-  Timing timing_of(Kind kind, const std::optional<Moment>& when) const {
+  Timing timing_of(Kind kind, const std::optional<SaidWhen>& when) const {
     const auto bound = fmt::format("{}s", (elsewhere_.bound + 999ms) / Duration{1s});
     if (kind == Kind::End && elsewhere_.has_bound && (!when || when->time == "end"))
       return {"within " + bound, {}, false};
@@ -266,6 +266,8 @@ private:
     const auto plain = fmt::format("{} {}", word, time);
     const auto within = "within " + time;
     const auto so_long = "during 0s.." + time;
+    if (kind == Kind::Output && at_end)
+      return {};
     if (kind == Kind::Final || kind == Kind::Output || (at_end && kind == Kind::End))
       return {plain};
     if (kind == Kind::End)
@@ -328,7 +330,7 @@ private:
   bool asks_ = false; ///< it says `expect`, or a word for it
   bool never_ = false;
   int depth_ = 0;    ///< of what is joined
-  int budget_ = 200; ///< attempts in one line
+  int budget_ = 300; ///< attempts in one line
 };
 
 /// The slot that people call so; nothing where none is.
@@ -417,6 +419,12 @@ std::optional<Rephrased> Form::happens(const Pieces& line, std::size_t subject,
   const auto lacking = std::count(values.begin(), values.end(), "");
   if (next != open.end() || lacking > 1 || (lacking == 1 && slots.size() != 2))
     return std::nullopt;
+  const auto is_far = [](const std::string& value) { // a direction, and no byte
+    return parse_number<int>(value).value_or(0) > UINT8_MAX;
+  };
+  const bool exchanged = aims && lacking == 0 && is_far(values[1]) && !is_far(values[0]);
+  if (exchanged)
+    std::swap(values[0], values[1]);
   if (aims)
     values[0] = values[0].empty() ? values[0] : in_circle(values[0]);
   if (left)
@@ -425,7 +433,7 @@ std::optional<Rephrased> Form::happens(const Pieces& line, std::size_t subject,
   for (const auto& value : values)
     text += " " + value;
   if (lacking == 0)
-    return Rephrased{head + text, filling.is_sure()};
+    return Rephrased{head + text, filling.is_sure() && !exchanged};
   // What lacks is as usual, or as in the example.
   const auto example = words_in(row.example);
   const auto said = values[0].empty() ? values[1] : values[0];

@@ -118,6 +118,9 @@ std::optional<std::string> Filling::fill(const Slots& slots, std::size_t subject
     if (!text && slot.before == "by") { // as in the line above
       text = slot.kind == slot::Kind::Length ? elsewhere_.near_by : elsewhere_.heading_by;
       sure_ = false;
+      if (const auto by = find([&](std::size_t i) { return pieces_[i].text == slot.before; });
+          by != none)
+        use(by);
     }
     if (!text || text->empty())
       return std::nullopt;
@@ -130,8 +133,12 @@ std::optional<std::string> Filling::fill(const Slots& slots, std::size_t subject
 std::optional<std::string> Filling::number(const Slot& slot) {
   const auto is_open = [&](std::size_t i) {
     const auto& piece = pieces_[i];
-    return piece.is(Piece::Number) && !piece.is_count && !piece.is_time() &&
-           !piece.most.is(Measure::Length);
+    const auto value = piece.most.value();
+    return piece.is(Piece::Number) && !piece.is_count &&
+           (piece.most.is_bare() || piece.most.is(Measure::Angle) ||
+            piece.most.is(Measure::Percent)) &&
+           (slot.before != "by" ||
+            (value >= static_cast<double>(slot.least) && value <= static_cast<double>(slot.most)));
   };
   const bool has_word = !slot.before.empty() && is_letter(slot.before[0]);
   auto at = find([&](std::size_t i) {
@@ -172,7 +179,8 @@ std::optional<std::string> Filling::place() {
   };
   const auto is_length = [&](std::size_t i) { return pieces_[i].most.is(Measure::Length); };
   set_aside([&](std::size_t i) { return pieces_[i].sign.starts_with('<'); });
-  set_aside([&](std::size_t i) { return front(i) != nullptr && (!is_free(i) || is_length(i)); });
+  set_aside(
+      [&](std::size_t i) { return has_front(i, "by within") && (!is_free(i) || is_length(i)); });
   set_aside(is_length);
   set_aside([&](std::size_t i) { return all.size() == 3 && i == all[2]; }); // `near 90 90 15`
   if (all.size() == 1 && !is_length(all[0])) { // `near 90.90`: a point for a comma
@@ -327,7 +335,8 @@ std::optional<std::string> Filling::colour() {
 std::optional<std::string> Filling::seeds() {
   const bool says = subject_ < pieces_.size() && pieces_[subject_].means("seeds");
   const auto at = find([&](std::size_t i) {
-    return (pieces_[i].is(Piece::Span) || is_number(i)) && (says || has_front(i, "seeds"));
+    return ((pieces_[i].is(Piece::Span) && pieces_[i].most.is_bare()) || is_number(i)) &&
+           (says || has_front(i, "seeds"));
   });
   if (at == none)
     return std::nullopt;
@@ -387,10 +396,11 @@ std::optional<std::string> Filling::value(const Slot& slot) {
       }
     return std::nullopt;
   case slot::Kind::Macro: {
-    if (const auto macro = find([&](std::size_t i) { return pieces_[i].text == slot.before; });
-        macro != none)
+    const auto macro = find([&](std::size_t i) { return pieces_[i].text == slot.before; });
+    auto found = name();
+    if (found && macro != none)
       use(macro);
-    return name();
+    return found;
   }
   case slot::Kind::TimeSpan:
   case slot::Kind::Word:
@@ -427,7 +437,7 @@ std::string Filling::take_name() {
   return " " + (piece.is(Piece::Text) ? piece.text : piece.most.number);
 }
 
-bool Filling::take_when(std::optional<Moment>& when, std::string& lasts) {
+bool Filling::take_when(std::optional<SaidWhen>& when, std::string& lasts) {
   for (std::size_t i = 0; i < pieces_.size(); ++i) {
     const auto& piece = pieces_[i];
     if (used_[i])
@@ -435,13 +445,14 @@ bool Filling::take_when(std::optional<Moment>& when, std::string& lasts) {
     const auto* const word = front(i);
     const bool ends = piece.is(Piece::Word) && piece.means("end") &&
                       (i + 1 == pieces_.size() || has_front(i, "at"));
-    const bool bare = is_number(i) && piece.axis == '\0' && (!is_free(i) || has_front(i, "within"));
+    const bool bare = is_number(i) && piece.axis == '\0' && has_front(i, "within at until after") &&
+                      (!is_free(i) || has_front(i, "within"));
     const bool span = piece.is(Piece::Span) && piece.most.is(Measure::Time) && !piece.is_count;
     if (!ends && !bare && !span && !piece.is_time())
       continue;
     take(i);
     sure_ = sure_ && !bare;
-    Moment one{"at", "end"};
+    SaidWhen one{"at", "end"};
     if (span)
       one = {"during", fmt::format("{}..{}", time_of(piece.least), time_of(piece.most))};
     else if (!ends)
@@ -451,6 +462,8 @@ bool Filling::take_when(std::optional<Moment>& when, std::string& lasts) {
         one.word = meaning;
     if (one.word.empty() && (piece.sign.starts_with('<') || has_front(i, "by")))
       one.word = "within";
+    if (one.word.empty() && word != nullptr && word->text == "during")
+      return false; // from when?
     if (piece.sign.starts_with('>') || (when && one.word != "for") ||
         (one.word == "for" && !lasts.empty()))
       return false;

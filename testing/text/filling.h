@@ -27,7 +27,7 @@ struct Elsewhere {
 };
 
 /// When, as it was said.
-struct Moment {
+struct SaidWhen {
   std::string_view word; ///< `within`, `at`, `during`, `until`, `after`; empty where only a time is
   std::string time;      ///< or `end`
 };
@@ -61,7 +61,7 @@ public:
   std::string take_name();  ///< of an error; empty without
 
   /// Takes all that says when; false where several do.
-  bool take_when(std::optional<Moment>& when, std::string& lasts);
+  bool take_when(std::optional<SaidWhen>& when, std::string& lasts);
 
   /// `at 2s `, as a stimulus begins; empty without.
   std::string take_moment(const Slots& slots);

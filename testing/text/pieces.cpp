@@ -273,18 +273,13 @@ private:
 
   void sign() {
     const auto& token = line_[at_++];
-    if (token.is("&") || token.is("&&"))
-      add(Piece::Word, "and").meanings = {"and"};
-    else if (token.is("!") || token.is("!="))
-      add(Piece::Word, "not").meanings = {"not"};
-    else if (token.is("+-"))
-      add(Piece::Word, "by").meanings = {"by"};
+    auto meanings = meanings_of(token.text);
+    if (!meanings.empty() || !holds("( ) [ ] { } , : ; . ? = == === => - \" @", token.text))
+      add(meanings.empty() ? Piece::Sign : Piece::Word, token.text).meanings = std::move(meanings);
     else if (token.is(",") || (token.is(":") && token.gap))
       add(Piece::Sign, ",");
-    else if (!holds("( ) [ ] { } : ; . ? = == === => - \" @", token.text) && !token.is_relation())
+    else if (token.is("-") && at_ > 1)
       add(Piece::Sign, token.text);
-    else if (token.is_relation() && token.text[0] != '=' && !token.is("=>"))
-      add(Piece::Word, token.text).meanings = {token.text[0] == '<' ? "<" : ">"};
   }
 
   const Tokens& line_;
