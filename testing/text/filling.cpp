@@ -168,7 +168,7 @@ std::optional<std::string> Filling::place() {
   std::vector<std::size_t> all;
   for (std::size_t i = 0; i < pieces_.size(); ++i)
     if (is_number(i) || (pieces_[i].is(Piece::Number) && pieces_[i].most.is(Measure::Length)))
-      if (!used_[i])
+      if (!used_[i] && !has_front(i, "seeds points for facing"))
         all.push_back(i);
   const auto set_aside = [&](auto is_it) {
     const auto at = std::find_if(all.begin(), all.end(), is_it);
