@@ -382,7 +382,8 @@ std::optional<Rephrased> Form::happens(const Pieces& line, std::size_t subject,
     const bool turns = turn != piece.meanings.end();
     const bool names =
         i + 1 < line.size() && line[i + 1].is(Piece::Number) && slot_called(slots, piece);
-    if (piece.is(Piece::Number) && !piece.is_time()) {
+    if (piece.is(Piece::Number) && (piece.most.is_bare() || piece.most.is(Measure::Percent) ||
+                                    piece.most.is(Measure::Angle))) {
       auto value = piece.most.number;
       if (piece.most.is(Measure::Percent) && slots[slots.size() - 1].most == UINT8_MAX) {
         value = std::to_string(

@@ -178,7 +178,9 @@ std::optional<std::string> Filling::place() {
     all.erase(at);
   };
   const auto is_length = [&](std::size_t i) { return pieces_[i].most.is(Measure::Length); };
+  const bool one_length = std::count_if(all.begin(), all.end(), is_length) == 1;
   set_aside([&](std::size_t i) { return pieces_[i].sign.starts_with('<'); });
+  set_aside([&](std::size_t i) { return one_length && is_length(i); });
   set_aside(
       [&](std::size_t i) { return has_front(i, "by within") && (!is_free(i) || is_length(i)); });
   set_aside(is_length);

@@ -1,13 +1,12 @@
 #include "testing/text/plain_line.h"
 
 #include "base/text/text.h"
-#include "repair/arrange.h"
-#include "repair/idioms.h"
 #include "testing/text/pieces.h"
 
 #include <algorithm>
 #include <array>
-#include <fmt/format.h>
+#include <string>
+#include <vector>
 
 namespace orb::testing {
 namespace {
