@@ -333,8 +333,12 @@ private:
     if ((line_[i].is_number() && line_[i + 1].is_number()) || line_[i].is("$") ||
         line_[i + 1].is("$"))
       return; // `A$` is a text elsewhere
-    if (line_[i].is(",") && i > 0 && line_[i - 1].is_number() && line_[i + 1].is_number())
-      return; // what parts two numbers
+    const auto parts_numbers = [&](std::size_t at) {
+      return line_[at].is(",") && at > 0 && at + 1 < line_.size() && line_[at - 1].is_number() &&
+             line_[at + 1].is_number();
+    };
+    if (parts_numbers(i) || parts_numbers(i + 1))
+      return;
     if (!(line_[i].kind == Token::Kind::Sign) == !(line_[i + 1].kind == Token::Kind::Sign) &&
         line_[i].kind != Token::Kind::Sign)
       return;

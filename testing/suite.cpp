@@ -193,15 +193,22 @@ std::string capitals(std::string_view ending) {
   return made;
 }
 
-/// For a line `WORD NAME` whose file cannot be read: one with an ending may have been meant.
+/// For a line `WORD NAME` whose file cannot be read: one with an ending, or with the slashes of all
+/// systems, may have been meant.
 Diagnostic cannot_read(std::string_view word, const Named& given, const std::string& path,
                        std::span<const std::string_view> possible, structured::Files& files) {
   auto d = finding(rules::File, given.span, texts::CannotRead(path), texts::FromFolderOfTest());
-  const auto ending = std::find_if(possible.begin(), possible.end(), [&](std::string_view one) {
-    return files.read(fmt::format("{}{}", path, one)).has_value();
+  const auto slashes = [](std::string text) {
+    std::replace(text.begin(), text.end(), '\\', '/');
+    return text;
+  };
+  std::vector<std::string_view> all{""};
+  all.insert(all.end(), possible.begin(), possible.end());
+  const auto ending = std::find_if(all.begin(), all.end(), [&](std::string_view one) {
+    return files.read(slashes(path) + std::string(one)).has_value();
   });
-  if (ending != possible.end()) {
-    const auto name = fmt::format("{}{}", given.text, *ending);
+  if (ending != all.end()) {
+    const auto name = slashes(given.text) + std::string(*ending);
     d.help = texts::Write(fmt::format("{} {}", word, name));
     d.fix = Fix{d.help, {{given.span, name}}, Safety::Unsafe};
   }

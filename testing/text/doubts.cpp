@@ -3,7 +3,7 @@
 #include "base/cursor.h"
 #include "base/duration.h"
 #include "base/text/text.h"
-#include "testing/text/rephrase.h"
+#include "repair/tokens.h"
 #include "testing/text/rules.h"
 #include "testing/text/texts.h"
 
@@ -116,7 +116,14 @@ private:
   }
 
   std::string what_of(const Expectation& one) const {
-    return what_is_expected(repair::tokens_of(text_of(one), repair::Language::Test));
+    auto what = repair::tokens_of(text_of(one), repair::Language::Test);
+    for (std::size_t i = 1; i < what.size(); ++i) {
+      const bool counts = what[i].is_number() && i + 1 < what.size() &&
+                          (what[i + 1].is("times") || what[i + 1].is("to"));
+      if (counts || what[i].is("within") || what[i].is("at") || what[i].is("during"))
+        what.resize(i);
+    }
+    return repair::join(repair::slice(what, 1));
   }
 
   /// Whether what never happens covers all the times at which the other is expected.

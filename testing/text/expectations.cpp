@@ -82,7 +82,7 @@ void FileReader::read_operands(Cursor& cursor, Expectation& one) {
   }
   const auto values = cursor.read(slots);
   for (std::size_t i = 0; i < slots.size(); ++i)
-    if (!cursor.failed() && values[i].is_given())
+    if (values[i].is_given() && (!cursor.failed() || slots[i].kind == slot::Kind::Colour))
       take(cursor, one, slots[i], values[i]);
 }
 
@@ -151,6 +151,14 @@ void FileReader::take_color(Cursor& cursor, Expectation& one, const SlotValue& v
   cursor.fail_at(value.span, rules::Value, file_texts::NotAColour(one.text),
                  is_hex ? file_texts::SixDigits()
                         : meant_or(one.text, known, file_texts::ColourIs()));
+  std::replace(one.text.begin(), one.text.end(), 'O', '0'); // they look alike
+  std::replace(one.text.begin(), one.text.end(), 'o', '0');
+  if (auto& d = file_.diagnostics.back();
+      d.span.begin == value.span.begin && is_hex && one.text.size() == size &&
+      parse_number<std::uint32_t>(std::string_view(one.text).substr(1), 16)) {
+    d.help = file_texts::Write(one.text);
+    d.fix = Fix{d.help, {{value.span, one.text}}, Safety::Unsafe};
+  }
 }
 
 void FileReader::read_error(Cursor& cursor, Expectation& one) {

@@ -120,11 +120,11 @@ private:
 
   void read_operands(Cursor& cursor, Expectation& one);
 
-  static void take(Cursor& cursor, Expectation& one, const Slot& slot, const SlotValue& value);
+  void take(Cursor& cursor, Expectation& one, const Slot& slot, const SlotValue& value);
 
   static void take_match(Cursor& cursor, Expectation& one, const SlotValue& value);
 
-  static void take_color(Cursor& cursor, Expectation& one, const SlotValue& value);
+  void take_color(Cursor& cursor, Expectation& one, const SlotValue& value);
 
   void read_error(Cursor& cursor, Expectation& one);
 

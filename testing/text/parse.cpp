@@ -2,8 +2,8 @@
 
 #include "base/fixes.h"
 #include "base/meant.h"
+#include "testing/text/documented_form.h"
 #include "testing/text/doubts.h"
-#include "testing/text/rephrase.h"
 
 #include <iterator>
 
@@ -246,7 +246,9 @@ void offer_lines(const Source& source, std::vector<Diagnostic>& findings) {
     return reads("test \"x\"\n", "") || reads("", "") || reads("", "\n  expect resting") ||
            reads("test \"x\"\nexpect prints\n", "");
   };
-  judge.rephrase = [elsewhere](const repair::Tokens& line) { return rephrase(line, elsewhere); };
+  judge.rephrase = [elsewhere](const repair::Tokens& line) {
+    return documented_forms(line, elsewhere);
+  };
   judge.check = [&](std::string_view text) {
     return FileReader(Source(source.name(), std::string(text))).read().diagnostics;
   };
