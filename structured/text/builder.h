@@ -51,12 +51,6 @@ public:
     return size(program_.names) - 1;
   }
 
-  bool is_known(Span name) const {
-    const auto text = program_.text_of(name);
-    return std::any_of(program_.names.begin(), program_.names.end(),
-                       [&](Span other) { return equal_words(program_.text_of(other), text); });
-  }
-
   // ---- expressions
 
   void leaf(NodeKind kind, std::uint8_t what, std::int32_t value, Span where) {
@@ -90,13 +84,7 @@ public:
       comparison = Comparison::Less;
     else if (*begin == '>')
       comparison = Comparison::Greater;
-    if (two == "==")
-      report(habit(program_, span(begin, begin + 2), "="));
     binary(NodeKind::Relation, static_cast<std::uint8_t>(comparison));
-  }
-  void signs(const char* begin, std::string_view instead) {
-    const bool apart = base_ < begin && is_name_char(begin[-1]);
-    report(habit(program_, span(begin, begin + 2), fmt::format("{}{}", apart ? " " : "", instead)));
   }
   std::uint32_t nodes() const { return size(program_.nodes); }
   Node& last() { return program_.nodes.back(); }
@@ -158,13 +146,17 @@ public:
   /// Puts one broken statement in place of all since `mark`.
   void fail(const Mark& mark, const Stop& stop, const char* begin, const char* limit) {
     const auto meant = meaning_of(mark, stop, limit);
+    auto& said = program_.diagnostics;
+    const bool foreign = said.size() > mark.diagnostics; // what others write there says more
     program_.statements.resize(mark.statements);
     program_.items.resize(mark.items);
     program_.nodes.resize(mark.nodes);
-    program_.diagnostics.resize(mark.diagnostics);
+    said.resize(mark.diagnostics + (foreign ? 1 : 0));
     const auto found = stop.end != nullptr ? span(stop.begin, stop.end) : token(stop.begin, limit);
     const auto reason = is_second_index(stop.reason, found) ? Reason::SecondIndex : stop.reason;
-    if (!is_said(reason, found))
+    if (foreign)
+      said.back().fix.reset();
+    else if (!is_said(reason, found))
       report(explain(program_, reason, found));
     this->begin(Kind::Broken, span(begin, begin)).meant = meant;
     begin_line();

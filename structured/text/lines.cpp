@@ -1,10 +1,16 @@
 #include "structured/text/lines.h"
 
+#include "base/text/text.h"
+#include "repair/tokens.h"
 #include "structured/text/blocks.h"
+#include "structured/text/foreign.h"
 #include "structured/text/messages.h"
+#include "structured/text/rules.h"
 #include "structured/text/texts.h"
 
 #include <algorithm>
+#include <fmt/format.h>
+#include <iterator>
 #include <utility>
 
 namespace orb::structured {
@@ -25,26 +31,53 @@ const char* Lines::parse_line(const char* p) {
   Input in(p, end_, "");
   skip_lines(in);
   p = in.current();
-  if (p == end_)
-    return p;
-  if (skip_foreign_comment(in))
+  if (p == end_ || skip_remark(in, p))
     return in.current();
   builder_.begin_line();
   const auto mark = builder_.mark();
+  const char* next = nullptr;
   try {
     if (is_digit(*p))
       return numbered(p);
     statement(in, Position::Line);
     builder_.begin_line();
     skip_blanks(in);
-    skip_foreign_end(in);
-    if (!at_end(in) && !skip_foreign_comment(in))
+    while (skip_last(in, {}))
+      continue;
+    if (!at_end(in) && !skip_remark(in, p))
       throw Stop{Reason::Trailing, in.current()};
+    next = in.current();
   } catch (const Stop& stop) {
     builder_.fail(mark, stop, p, end_);
-    return resume(p, stop.begin);
+    next = resume(p, stop.begin);
   }
-  return in.current();
+  note_blocks(mark.statements, {p, static_cast<std::size_t>(next - p)});
+  return next;
+}
+
+void Lines::note_blocks(std::size_t from, std::string_view line) {
+  for (auto i = from; i < program_.statements.size(); ++i) {
+    const auto role = program_.statements[i].role();
+    const auto opener = std::find_if(open_.rbegin(), open_.rend(),
+                                     [&](Kind one) { return end_of(one) == role; });
+    if (opens_block(role))
+      open_.push_back(role);
+    else if (closes_block(role) && opener != open_.rend())
+      open_.erase(std::prev(opener.base()), open_.end());
+  }
+  const bool unknown = builder_.statement().role() == Kind::Broken;
+  if (unknown && trim(line.substr(0, line.find('\''))).ends_with('{'))
+    open_.push_back(Kind::Broken);
+  if (open_.size() > 64) // nobody nests so deep
+    open_.erase(open_.begin());
+}
+
+const char* Lines::numbered(const char* p) {
+  if (!numbered_)
+    builder_.report(explain(program_, Reason::LineNumber, builder_.token(p, end_)));
+  numbered_ = true;
+  builder_.begin(Kind::Broken, builder_.span(p, p));
+  return find_line_end(p, end_);
 }
 
 const char* Lines::resume(const char* begin, const char* at) const {
@@ -82,20 +115,26 @@ void Lines::bare(Input& in, Kind kind, std::string_view word) {
 
 void Lines::statement(Input& in, Position position) {
   const auto name = peek_name(in);
-  if (name.empty()) {
-    if (*in.current() != '?')
+  if (!name.empty()) {
+    if (holds("else select exit continue loop end", name) && foreign(in, name, position))
+      return;
+    meant(in, name, name, position);
+  } else if (in.empty() || *in.current() != '}' || !foreign(in, {in.current(), 1}, position)) {
+    if (in.empty() || *in.current() != '?')
       throw Stop{at_end(in) ? Reason::ExpectedStatement : Reason::NotAStatement, in.current()};
     print_line(in, {in.current(), 1});
-    return;
   }
-  const auto word = find_word(name);
-  switch (word.kind) {
-  case WordKind::Name: named(in, name, position); return;
+}
+
+void Lines::meant(Input& in, std::string_view word, std::string_view ours, Position position) {
+  const auto meant = find_word(ours);
+  switch (meant.kind) {
+  case WordKind::Name: named(in, word, position); return;
   case WordKind::Variable: assignment(in); return;
-  case WordKind::Function: throw Stop{Reason::NotAStatement, name.data()};
-  case WordKind::Keyword: keyword(in, static_cast<Keyword>(word.index), name, position); return;
+  case WordKind::Function: throw Stop{Reason::NotAStatement, word.data()};
+  case WordKind::Keyword: keyword(in, static_cast<Keyword>(meant.index), word, position); return;
   case WordKind::Statement:
-    robot(in, static_cast<spec::Statement>(word.index), name, position);
+    robot(in, static_cast<spec::Statement>(meant.index), word, position);
     return;
   }
 }
@@ -103,17 +142,6 @@ void Lines::statement(Input& in, Position position) {
 void Lines::only_on_line(Position position, std::string_view word) const {
   if (position == Position::Branch)
     throw Stop{Reason::BlockInOneLine, word.data()};
-}
-
-void Lines::leave_line(Input& in, Kind kind, std::string_view word) {
-  bare(in, kind, word);
-  const auto loop = peek_name(in); // `exit for`, as elsewhere
-  if (kind == Kind::Exit && leave_routine(in, word, loop))
-    return;
-  if (is_loop_word(loop) || equal_words(loop, "do")) {
-    builder_.report(habit(program_, builder_.span(word.data(), loop.data() + loop.size()), word));
-    in.bump(loop.size());
-  }
 }
 
 void Lines::repeat_line(Input& in, std::string_view word) {
@@ -144,34 +172,6 @@ void Lines::local_line(Input& in, std::string_view word) {
   }
 }
 
-void Lines::next_line(Input& in, std::string_view word) {
-  simple<g::counted>(in, Kind::Next, word);
-  const auto begin = builder_.statement().span.begin;
-  bool several = false;
-  for (; !in.empty() && *in.current() == ','; several = true) {
-    builder_.statement().items_end = builder_.statement().items_begin; // in whatever order
-    tail<g::comma>(in);
-    builder_.begin(Kind::Next, builder_.span(in.current(), in.current()));
-    tail<g::place>(in);
-    builder_.finish(in.current());
-  }
-  if (!several)
-    return;
-  builder_.statement().items_end = builder_.statement().items_begin;
-  builder_.report(habit(program_, {begin, builder_.statement().span.end}, {}, texts::NextEach()));
-}
-
-void Lines::select_line(Input& in, std::string_view word) {
-  begin(in, Kind::Select, word);
-  if (equal_words(peek_name(in), "case")) {
-    builder_.report(habit(program_, span(peek_name(in)), " "));
-    in.bump(4);
-    skip_blanks(in);
-  }
-  tail<g::one_value>(in);
-  builder_.finish(in.current());
-}
-
 void Lines::case_line(Input& in, std::string_view word) {
   begin(in, Kind::Case, word);
   if (equal_words(peek_name(in), "else")) {
@@ -187,20 +187,20 @@ void Lines::keyword(Input& in, Keyword keyword, std::string_view word, Position 
   if (keyword != Keyword::Exit && keyword != Keyword::Continue)
     only_on_line(position, word);
   switch (keyword) {
-  case Keyword::Exit: leave_line(in, Kind::Exit, word); return;
-  case Keyword::Continue: leave_line(in, Kind::Continue, word); return;
+  case Keyword::Exit: bare(in, Kind::Exit, word); return;
+  case Keyword::Continue: bare(in, Kind::Continue, word); return;
   case Keyword::Const: simple<g::constant>(in, Kind::Const, word); return;
   case Keyword::Local: local_line(in, word); return;
   case Keyword::Array: simple<g::array>(in, Kind::Array, word); return;
   case Keyword::Use: simple<g::file>(in, Kind::Use, word); return;
   case Keyword::Include: simple<g::file>(in, Kind::Include, word); return;
   case Keyword::ElseIf: conditional(in, Kind::ElseIf, word); return;
-  case Keyword::Else: else_line(in, word); return;
+  case Keyword::Else: bare(in, Kind::Else, word); return;
   case Keyword::While: simple<g::one_value>(in, Kind::While, word); return;
   case Keyword::Repeat: repeat_line(in, word); return;
   case Keyword::Until: simple<g::one_value>(in, Kind::Until, word); return;
-  case Keyword::Loop: loop_line(in, word); return;
-  case Keyword::Select: select_line(in, word); return;
+  case Keyword::Loop: bare(in, Kind::Loop, word); return;
+  case Keyword::Select: simple<g::one_value>(in, Kind::Select, word); return;
   case Keyword::Case: case_line(in, word); return;
   case Keyword::Sub: simple<g::routine>(in, Kind::Sub, word); return;
   case Keyword::Function: simple<g::routine>(in, Kind::Function, word); return;
@@ -219,32 +219,10 @@ void Lines::conditional(Input& in, Kind kind, std::string_view word) {
   begin(in, kind, word);
   tail<g::one_value>(in);
   if (!tao::pegtl::parse<g::word_then, Action, Control>(in, builder_) &&
-      !skip_foreign_end(in, " then")) {
+      !skip_last(in, "then")) {
     if (!at_end(in) || kind == Kind::If)
       throw Stop{Reason::ExpectedThen, in.current()};
   }
-  builder_.finish(in.current());
-}
-
-void Lines::else_line(Input& in, std::string_view word) {
-  skip_blanks(in);
-  const char* const begin_word = in.current();
-  in.bump(word.size());
-  skip_blanks(in);
-  if (equal_words(peek_name(in), "if")) { // `else if c then` opens no block of its own here
-    const char* const end = in.current() + 2;
-    builder_.report(habit(program_, builder_.span(begin_word, end), "elseif"));
-    const auto joined = std::string_view(begin_word, static_cast<std::size_t>(end - begin_word));
-    in.bump(2);
-    skip_blanks(in);
-    builder_.begin(Kind::ElseIf, span(joined));
-    tail<g::one_value>(in);
-    if (!tao::pegtl::parse<g::word_then, Action, Control>(in, builder_))
-      throw Stop{Reason::ExpectedThen, in.current()};
-    builder_.finish(in.current());
-    return;
-  }
-  builder_.begin(Kind::Else, span(word));
   builder_.finish(in.current());
 }
 
@@ -257,7 +235,7 @@ void Lines::robot(Input& in, spec::Statement robot, std::string_view word, Posit
     return;
   case spec::Statement::Next:
     only_on_line(position, word);
-    next_line(in, word);
+    simple<g::counted>(in, Kind::Next, word);
     return;
   case spec::Statement::Goto: simple<g::jump>(in, Kind::Goto, word); return;
   case spec::Statement::Gosub: throw Stop{Reason::Gosub, word.data()};
@@ -293,7 +271,6 @@ void Lines::robot(Input& in, spec::Statement robot, std::string_view word, Posit
   case spec::Statement::Mackill: break;
   }
   begin(in, Kind::Robot, word).robot = robot;
-  refuse_parentheses(in);
   switch (spec::info(robot).form) {
   case spec::Form::Entry: tail<g::entry>(in); break;
   case spec::Form::Values: tail<g::values>(in); break;
@@ -322,26 +299,7 @@ void Lines::print_line(Input& in, std::string_view word) {
   Input rest(quote + 1, end_, "");
   skip_blanks(rest);
   if (at_end(rest))
-    builder_.report(single_quotes(program_, builder_.span(in.current(), quote + 1)));
-}
-
-void Lines::refuse_parentheses(const Input& in) const {
-  const char* const begin = in.current();
-  if (in.empty() || *begin != '(')
-    return;
-  int depth = 0;
-  bool comma = false;
-  for (const char* p = begin; p != end_ && !is_line_end(*p) && *p != '\''; ++p) {
-    depth += *p == '(' ? 1 : *p == ')' ? -1 : 0;
-    comma = comma || (*p == ',' && depth == 1);
-    if (depth > 0)
-      continue;
-    Input rest(p + 1, end_, "");
-    skip_blanks(rest);
-    if (comma && at_end(rest))
-      throw Stop{Reason::Parenthesised, begin, p + 1};
-    return;
-  }
+    throw Stop{Reason::SingleQuotes, in.current(), quote + 1};
 }
 
 void Lines::if_line(Input& in, std::string_view word, Position position) {
@@ -367,17 +325,7 @@ void Lines::end_line(Input& in, std::string_view word, Position position) {
   in.bump(word.size());
   skip_blanks(in);
   const auto what = peek_name(in);
-  auto kind = end_of_block(what);
-  const auto routine = foreign_routine(what);
-  const bool chooses = equal_words(what, "switch") || equal_words(what, "case");
-  if (equal_words(what, "for") || chooses || routine) {
-    kind = chooses                 ? Kind::EndSelect
-           : !routine              ? Kind::Next
-           : *routine == Kind::Sub ? Kind::EndSub
-                                   : Kind::EndFunction;
-    builder_.report(habit(program_, builder_.span(word.data(), what.data() + what.size()),
-                          words_of_end(*kind)));
-  }
+  const auto kind = end_of_block(what);
   if (!kind) {
     builder_.begin(Kind::Robot, span(word)).robot = spec::Statement::End;
     builder_.finish(in.current());
@@ -400,12 +348,9 @@ void Lines::named(Input& in, std::string_view name, Position position) {
     assignment(in);
     return;
   }
-  if ((next == '+' || next == '-') && after == next) {
-    step(in, name, {ahead, 2});
+  if (foreign(in, name, position))
     return;
-  }
-  const bool otherwise = equal_words(name, "default") && innermost() == Kind::Select;
-  if (next == ':' && position == Position::Line && !otherwise) {
+  if (next == ':' && position == Position::Line) {
     begin(in, Kind::Label, name);
     builder_.statement().word = {};
     set_name(name);
@@ -413,8 +358,6 @@ void Lines::named(Input& in, std::string_view name, Position position) {
     builder_.finish(in.current());
     return;
   }
-  if ((next != '(' || equal_words(name, "switch")) && foreign(in, name, position))
-    return;
   call(in, name, next);
 }
 
@@ -429,18 +372,12 @@ void Lines::assignment(Input& in) {
   builder_.begin(Kind::Assign, builder_.span(in.current(), in.current()));
   tail<g::place>(in);
   const char* const sign = in.current();
-  if (!in.empty() && *sign == ':' && sign + 1 != end_ && sign[1] == '=') {
-    builder_.report(habit(program_, builder_.span(sign, sign + 2), "="));
-    in.bump(1);
-  } else if (!in.empty() && *sign != '=') {
+  if (!in.empty() && *sign != '=') {
     const auto operation = spec::find_operator(*sign);
     if (!operation || sign + 1 == end_ || sign[1] != '=' || *sign == '{' || *sign == '}' ||
         *sign == '&' || *sign == '|')
       throw Stop{Reason::ExpectedEquals, sign};
     builder_.statement().operation = static_cast<std::uint8_t>(*operation);
-    in.bump(1);
-  } else if (!in.empty() && sign + 1 != end_ && sign[1] == '=') {
-    builder_.report(habit(program_, builder_.span(sign, sign + 2), "="));
     in.bump(1);
   }
   tail<g::equals>(in);
@@ -465,6 +402,164 @@ void Lines::call(Input& in, std::string_view name, char next) {
     throw Stop{Reason::NakedArguments, in.current()};
   }
   builder_.finish(in.current());
+}
+
+// ---- what other languages write
+
+bool Lines::skip_remark(Input& in, const char* line) {
+  if (in.empty() || !holds("/ # - r R", {in.current(), 1}))
+    return false;
+  const char* const at = in.current();
+  const char* const line_end = find_line_end(at, end_);
+  const std::string_view rest(at, static_cast<std::size_t>(line_end - at));
+  const Foreign* row = nullptr;
+  std::size_t size = 4;
+  while (row == nullptr && --size > 0)
+    row = find_foreign(Stands::Remark, rest.substr(0, size));
+  if (row == nullptr)
+    return false;
+  const auto parts = repair::split({line, static_cast<std::size_t>(line_end - line)},
+                                   repair::Language::Structured);
+  if (parts.comment.empty() ||
+      (!parts.tokens.empty() && line + parts.tokens.back().at >= at))
+    return false;
+  auto d = structured::foreign(program_, builder_.span(at, at + size), row->languages, row->here);
+  d.fix->edits = {{builder_.span(at, line_end), parts.comment}};
+  builder_.report(std::move(d));
+  in.bump(rest.size());
+  return true;
+}
+
+bool Lines::skip_last(Input& in, std::string_view instead) {
+  if (in.empty())
+    return false;
+  const char* const sign = in.current();
+  const auto* const row = find_foreign(Stands::Last, {sign, 1});
+  Input ahead(sign + 1, end_, "");
+  skip_blanks(ahead);
+  if (row == nullptr || (!at_end(ahead) && !holds("; / #", {ahead.current(), 1})))
+    return false;
+  const bool parted = is_blank(sign[-1]) || instead.empty();
+  builder_.report(structured::foreign(program_, builder_.span(sign, sign + 1), row->languages,
+                                      (parted ? "" : " ") + std::string(instead)));
+  in.bump(static_cast<std::size_t>(ahead.current() - sign));
+  return true;
+}
+
+bool Lines::foreign(Input& in, std::string_view first, Position position) {
+  const char* p = first.data() + first.size();
+  while (p != end_ && is_blank(*p))
+    ++p;
+  const auto after = peek_name(Input(p, end_, ""));
+  const bool brace = first == "}";
+  const bool loop = equal_words(first, "loop") || (brace && holds("while until", after));
+  const auto* const row = find_foreign(Stands::First, loop ? "loop" : first, after);
+  if (row == nullptr || (loop && dos_.empty()) || is_own(first))
+    return false;
+  const bool parts = brace && (find_word(after).is(Keyword::Else) || holds("elseif elif", after));
+  auto here = parts ? std::string_view() : row->here;
+  const auto inner = std::find_if(open_.rbegin(), open_.rend(),
+                                  [](Kind one) { return is_loop(one) || one == Kind::Select; });
+  const bool in_case = inner != open_.rend() && *inner == Kind::Select;
+  const bool plain = find_word(after).kind == WordKind::Name && !after.empty() &&
+                     find_foreign(Stands::First, after) == nullptr;
+  if ((p != end_ && *p == '(' && !holds("elseif select", here)) ||
+      (equal_words(first, "default") && !in_case) || (here.empty() && !plain && !parts))
+    return false;
+  if (in_case && equal_words(first, "break")) {
+    bare(in, Kind::Broken, first);
+    in.bump(!in.empty() && *in.current() == ';' ? 1 : 0);
+    auto d = finding(rules::ForeignWord, span(first), texts::CaseEnds(), texts::RemoveIt());
+    if (position == Position::Line)
+      d.fix = Fix{d.help, {{builder_.span(first.data(), in.current()), ""}}, Safety::Safe};
+    builder_.report(std::move(d));
+    return true;
+  }
+  if (loop && row->after.empty())
+    here = words_of_end(end_of(program_.statements[dos_.back().statement].role()));
+  else if (here == block_end)
+    here = open_.empty() ? std::string_view() : words_of_end(end_of(open_.back()));
+  else if (equal_words(first, "def") && gives_value(p))
+    here = "function";
+  if (equal_words(first, "do"))
+    dos_.push_back({program_.statements.size(), program_.diagnostics.size()});
+  const std::string_view word(
+      first.data(), row->after.empty()
+                        ? first.size()
+                        : static_cast<std::size_t>(after.data() + after.size() - first.data()));
+  if (loop)
+    end_do(*row);
+  const auto said = program_.diagnostics.size();
+  builder_.report(structured::foreign(program_, span(word), row->languages, here));
+  const auto end = here.starts_with("end ") ? end_of_block(here.substr(4)) : std::nullopt;
+  if (end) {
+    only_on_line(position, word);
+    bare(in, *end, word);
+  } else if (here.empty()) {
+    in.bump(word.size());
+    skip_blanks(in);
+    if (!brace || parts)
+      statement(in, position);
+    else
+      bare(in, Kind::Broken, {in.current(), 0});
+  } else {
+    meant(in, word, here.substr(0, here.find(" not")), position);
+  }
+  auto& d = program_.diagnostics[said];
+  if (here.ends_with(" not")) {
+    const Span all{span(word).begin, builder_.statement().span.end};
+    auto turned =
+        fmt::format("{} ({})", here, trim(program_.text_of({span(word).end, all.end})));
+    d.fix = Fix{d.help, {{all, std::move(turned)}}, Safety::Safe};
+  }
+  return true;
+}
+
+void Lines::end_do(const Foreign& row) {
+  const auto begun = dos_.back();
+  dos_.pop_back();
+  auto& opener = program_.statements[begun.statement];
+  if (row.after.empty() || opener.role() != Kind::Loop)
+    return;
+  (opener.kind == Kind::Broken ? opener.meant : opener.kind) = Kind::Repeat;
+  if (const auto open = std::find(open_.rbegin(), open_.rend(), Kind::Loop); open != open_.rend())
+    *open = Kind::Repeat;
+  program_.diagnostics[begun.finding] =
+      structured::foreign(program_, opener.word, row.languages, "repeat");
+}
+
+bool Lines::gives_value(const char* p) const {
+  while ((p = find_line_end(p, end_)) != end_) {
+    Input in(p, end_, "");
+    skip_lines(in);
+    p = in.current();
+    const auto begin = peek_name(in);
+    const std::string_view line(p, static_cast<std::size_t>(find_line_end(p, end_) - p));
+    if (holds("sub function def", begin))
+      return false;
+    const auto at = lower(line).find("return ");
+    if (at != std::string::npos)
+      return true;
+  }
+  return false;
+}
+
+bool Lines::is_own(std::string_view word) {
+  if (own_.empty()) {
+    own_.insert(""); // looked for
+    for (const char* p = begin_; p != end_; p = find_line_end(p, end_)) {
+      Input in(p, end_, "");
+      skip_lines(in);
+      const auto begin = peek_name(in);
+      p = in.current();
+      if (!holds("sub function", begin))
+        continue;
+      in.bump(begin.size());
+      skip_blanks(in);
+      own_.insert(lower(peek_name(in)));
+    }
+  }
+  return own_.contains(lower(word));
 }
 
 } // namespace orb::structured

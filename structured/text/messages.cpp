@@ -5,6 +5,7 @@
 #include "compiler/text/texts.h"
 #include "repair/tokens.h"
 #include "spec/limits.h"
+#include "structured/text/foreign.h"
 #include "structured/text/rules.h"
 #include "structured/text/texts.h"
 #include "structured/text/words.h"
@@ -111,7 +112,7 @@ Diagnostic missing_value(const Program& program, Span found) {
 /// Values after a name without parentheses: a statement that is misspelt, or a call.
 Diagnostic naked_arguments(const Program& program, Span found) {
   const auto called = word_before(program.text, found.begin);
-  if (auto known = foreign(program, called, repair::Where::Line))
+  if (auto known = name_foreign(program, called, Stands::First))
     return *std::move(known);
   const auto word = std::string(program.text_of(called));
   if (program.text[found.begin] == '$')
@@ -252,16 +253,13 @@ Diagnostic bad_number(Span found, std::string_view text) {
       texts::NumbersAre(0, spec::value_of(spec::Limit::GreatestInteger), "250ms", "1.5s", "2min"));
 }
 
-/// Values of a statement in parentheses, as other languages call their functions.
-Diagnostic parenthesised(const Program& program, Span found) {
-  const auto statement = first_word(program.text, found.begin);
-  auto d = finding(rules::MalformedLine, found, texts::NoParentheses(statement),
-                   texts::RemoveParentheses());
-  d.fix =
-      Fix{d.help,
-          {Edit{{found.begin, found.begin + 1}, is_blank(program.text[found.begin - 1]) ? "" : " "},
-           Edit{{found.end - 1, found.end}, ""}},
-          Safety::Safe};
+/// `print 'hello'`.
+Diagnostic single_quotes(const Program& program, Span found) {
+  const auto inner = program.text_of({found.begin + 1, found.end - 1});
+  auto quoted = fmt::format("\"{}\"", inner);
+  auto d = finding(rules::ForeignWord, found, texts::StartsComment(), texts::Write(quoted));
+  if (inner.find('"') == std::string_view::npos)
+    d.fix = Fix{d.help, {Edit{found, std::move(quoted)}}, Safety::Safe};
   return d;
 }
 
@@ -342,7 +340,7 @@ Diagnostic explain(const Program& program, Reason reason, Span found) {
     return malformed(program, found, texts::ColourNoValue(), texts::ColourAfterRgb());
   const bool other_expected = reason <= Reason::ExpectedParenthesis;
   if (other_expected || reason == Reason::NotAStatement)
-    if (auto known = foreign(program, found, repair::Where::Inside))
+    if (auto known = name_foreign(program, found, Stands::Inside))
       return *std::move(known);
   if (const auto word = word_for_name(program, reason, found))
     return reserved(program, *word);
@@ -378,7 +376,12 @@ Diagnostic explain(const Program& program, Reason reason, Span found) {
                      : equal_words(first_word(program.text, found.begin), "dim")
                          ? texts::NoDeclaration()
                          : Message());
-  case Reason::ExpectedParenthesis: return malformed(program, found, texts::MissingParenthesis());
+  case Reason::ExpectedParenthesis:
+    if (const auto word = first_word(program.text, found.begin);
+        text == "," && find_word(word).kind == WordKind::Statement)
+      return finding(rules::MalformedLine, found, texts::NoParentheses(word),
+                     texts::RemoveParentheses());
+    return malformed(program, found, texts::MissingParenthesis());
   case Reason::ExpectedOperand:
     return malformed(program, found, texts::ArgumentInParentheses(),
                      call_of(program.text_of(word_before(program.text, found.begin)), text));
@@ -420,7 +423,7 @@ Diagnostic explain(const Program& program, Reason reason, Span found) {
   case Reason::On:
     return finding(rules::ForeignWord, found, compiler::texts::ThereIsNo("on"),
                    texts::SelectInstead());
-  case Reason::Parenthesised: return parenthesised(program, found);
+  case Reason::SingleQuotes: return single_quotes(program, found);
   case Reason::SecondIndex: return second_index(program, found);
   }
   return finding(rules::MalformedLine, found, texts::SyntaxError());
