@@ -46,11 +46,15 @@ constexpr auto rows = std::to_array<Foreign>({
     {First, "endfunction endfunc", "", "end function", "BASIC"},
     {First, "enddef", "", block_end, "Python"},
     {First, "end", "def proc procedure void func", block_end, "Pascal"},
+    {First, "}", "else elseif elif", "", "C/JavaScript"},
     {First, "}", "", block_end, "C/JavaScript"},
     {First, "def", "", "sub", "Python"},
     {First, "proc procedure", "", "sub", "Pascal"},
+    {First, "void", "loop", "loop", "Arduino"},
+    {First, "void", "setup main", not_here, "Arduino"},
     {First, "void", "", "sub", "C"},
     {First, "func", "", "function", "Go/Swift"},
+    {First, "foreach", "", "for", "PHP"},
     {First, "dim", "", "array", "BASIC"},
     {First, "var let", "", "", "JavaScript"},
     {First, "call", "", "", "Visual Basic"},
@@ -64,6 +68,7 @@ constexpr auto rows = std::to_array<Foreign>({
     {Inside, "&&", "", "and", "C/JavaScript"},
     {Inside, "||", "", "or", "C/JavaScript"},
     {Inside, "!", "", "not", "C/JavaScript"},
+    {Inside, "//", "", "/", "Python"},
     {Inside, "mod", "", "%", "BASIC"},
     {Inside, "sqr", "", "sqrt", "BASIC"},
     {Inside, "rand random randint", "", "rnd", "Python/C", &texts::DiceInstead},
@@ -99,10 +104,11 @@ Diagnostic foreign(const Program& program, Span found, std::string_view language
                                      : texts::WrittenAs(word, languages, written),
                    written.empty() ? texts::RemoveIt() : texts::Write(written));
   const std::string_view text = program.text;
-  const bool parted = found.begin == 0 || !is_name_char(text[found.begin - 1]);
-  if (here.empty() && parted) // the blanks behind it go, too
-    found.end = static_cast<std::uint32_t>(
-        std::min(text.find_first_not_of(" \t", found.end), text.size()));
+  if (here.empty() && is_blank(text[found.end])) // the blanks beside it go, too
+    found.end = static_cast<std::uint32_t>(text.find_first_not_of(" \t", found.end));
+  else
+    while (here.empty() && found.begin > 0 && is_blank(text[found.begin - 1]))
+      --found.begin;
   d.fix = Fix{d.help, {Edit{found, std::string(here)}}, Safety::Safe};
   return d;
 }
@@ -112,16 +118,21 @@ std::optional<Diagnostic> name_foreign(const Program& program, Span found, Stand
   // A sign of two characters shows at the second.
   for (const auto begin : {found.begin - std::min(found.begin, 1U), found.begin})
     if (const auto* const row = find_foreign(stands, text.substr(begin, 2));
-        row != nullptr && !is_letter(text[begin]))
-      return foreign(program, {begin, begin + 2}, row->languages, row->here);
+        row != nullptr && !is_letter(text[begin])) {
+      auto d = foreign(program, {begin, begin + 2}, row->languages, row->here);
+      if (row->here == "/") // a remark may have been meant
+        d.fix->safety = Safety::Unsafe;
+      return d;
+    }
   const auto word = program.text_of(found);
   const auto* const row = find_foreign(stands, word);
   const bool ours = find_word(word).kind == WordKind::Keyword;
-  if (row == nullptr && (ours || !repair::is_known_word(word, stands == First
-                                                                  ? repair::Where::Line
-                                                                  : repair::Where::Inside)))
+  if (row == nullptr &&
+      (ours ||
+       !repair::is_known_word(word, stands == First ? repair::Where::Line : repair::Where::Inside)))
     return std::nullopt;
-  auto d = foreign(program, found, row == nullptr ? "" : row->languages, row == nullptr ? "" : row->here);
+  auto d = foreign(program, found, row == nullptr ? "" : row->languages,
+                   row == nullptr ? "" : row->here);
   if (find_word(word).kind == WordKind::Statement)
     d.message = texts::StatementNoValue(word);
   if (row != nullptr && row->help != nullptr)

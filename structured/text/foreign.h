@@ -31,14 +31,17 @@ struct Foreign {
 /// What ends the innermost block, in Foreign::here.
 inline constexpr std::string_view block_end = "end …";
 
+/// A word that is no other one's here.
+inline constexpr std::string_view not_here = "-";
+
 const Foreign* find_foreign(Stands stands, std::string_view word, std::string_view after = {});
 
 /// The finding about it; with a fix where `here` can take its place.
 Diagnostic foreign(const Program& program, Span found, std::string_view languages,
                    std::string_view here);
 
-/// A word or sign at which a line stops to parse, or which nothing defines: nothing where it is none
-/// that is known.
+/// A word or sign at which a line stops to parse, or which nothing defines: nothing where it is
+/// none that is known.
 std::optional<Diagnostic> name_foreign(const Program& program, Span found, Stands stands);
 
 } // namespace orb::structured

@@ -58,15 +58,17 @@ const char* Lines::parse_line(const char* p) {
 void Lines::note_blocks(std::size_t from, std::string_view line) {
   for (auto i = from; i < program_.statements.size(); ++i) {
     const auto role = program_.statements[i].role();
-    const auto opener = std::find_if(open_.rbegin(), open_.rend(),
-                                     [&](Kind one) { return end_of(one) == role; });
     if (opens_block(role))
       open_.push_back(role);
-    else if (closes_block(role) && opener != open_.rend())
+    if (!closes_block(role))
+      continue;
+    const auto opener =
+        std::find_if(open_.rbegin(), open_.rend(), [&](Kind one) { return end_of(one) == role; });
+    if (opener != open_.rend())
       open_.erase(std::prev(opener.base()), open_.end());
   }
-  const bool unknown = builder_.statement().role() == Kind::Broken;
-  if (unknown && trim(line.substr(0, line.find('\''))).ends_with('{'))
+  if (builder_.statement().role() == Kind::Broken &&
+      trim(line.substr(0, line.find('\''))).ends_with('{'))
     open_.push_back(Kind::Broken);
   if (open_.size() > 64) // nobody nests so deep
     open_.erase(open_.begin());
@@ -218,8 +220,7 @@ void Lines::keyword(Input& in, Keyword keyword, std::string_view word, Position 
 void Lines::conditional(Input& in, Kind kind, std::string_view word) {
   begin(in, kind, word);
   tail<g::one_value>(in);
-  if (!tao::pegtl::parse<g::word_then, Action, Control>(in, builder_) &&
-      !skip_last(in, "then")) {
+  if (!tao::pegtl::parse<g::word_then, Action, Control>(in, builder_) && !skip_last(in, "then")) {
     if (!at_end(in) || kind == Kind::If)
       throw Stop{Reason::ExpectedThen, in.current()};
   }
@@ -227,63 +228,43 @@ void Lines::conditional(Input& in, Kind kind, std::string_view word) {
 }
 
 void Lines::robot(Input& in, spec::Statement robot, std::string_view word, Position position) {
-  switch (robot) {
-  case spec::Statement::If: if_line(in, word, position); return;
-  case spec::Statement::For:
-    only_on_line(position, word);
-    simple<g::counting>(in, Kind::For, word);
+  if (robot == spec::Statement::End) {
+    end_line(in, word, position);
     return;
-  case spec::Statement::Next:
-    only_on_line(position, word);
-    simple<g::counted>(in, Kind::Next, word);
-    return;
-  case spec::Statement::Goto: simple<g::jump>(in, Kind::Goto, word); return;
-  case spec::Statement::Gosub: throw Stop{Reason::Gosub, word.data()};
-  case spec::Statement::On: throw Stop{Reason::On, word.data()};
-  case spec::Statement::Return:
-    begin(in, Kind::Return, word);
-    if (!at_end(in) && !find_word(peek_name(in)).is(Keyword::Else))
-      tail<g::one_value>(in);
-    builder_.finish(in.current());
-    return;
-  case spec::Statement::Print: print_line(in, word); return;
-  case spec::Statement::End: end_line(in, word, position); return;
-  case spec::Statement::Let:
-  case spec::Statement::Input:
-  case spec::Statement::Delay:
-  case spec::Statement::Rgb:
-  case spec::Statement::Ledc:
-  case spec::Statement::BackLed:
-  case spec::Statement::Random:
-  case spec::Statement::Goroll:
-  case spec::Statement::Heading:
-  case spec::Statement::Raw:
-  case spec::Statement::Locate:
-  case spec::Statement::Basflg:
-  case spec::Statement::Data:
-  case spec::Statement::Rstr:
-  case spec::Statement::Read:
-  case spec::Statement::Tron:
-  case spec::Statement::Troff:
-  case spec::Statement::Reset:
-  case spec::Statement::Sleep:
-  case spec::Statement::Macrun:
-  case spec::Statement::Mackill: break;
   }
-  begin(in, Kind::Robot, word).robot = robot;
-  switch (spec::info(robot).form) {
-  case spec::Form::Entry: tail<g::entry>(in); break;
-  case spec::Form::Values: tail<g::values>(in); break;
-  case spec::Form::Variables: tail<g::places>(in); break;
-  case spec::Form::Arguments: tail<g::arguments>(in); break;
-  case spec::Form::Assignment:
-  case spec::Form::Conditional:
-  case spec::Form::Loop:
-  case spec::Form::LoopEnd:
+  const auto form = spec::info(robot).form;
+  if (form == spec::Form::Loop || form == spec::Form::LoopEnd)
+    only_on_line(position, word);
+  switch (form) {
+  case spec::Form::Conditional: if_line(in, word, position); return;
+  case spec::Form::Loop: simple<g::counting>(in, Kind::For, word); return;
+  case spec::Form::LoopEnd: simple<g::counted>(in, Kind::Next, word); return;
   case spec::Form::Branch:
-  case spec::Form::IndexedBranch:
-  case spec::Form::Output: break;
+    if (robot == spec::Statement::Gosub)
+      throw Stop{Reason::Gosub, word.data()};
+    simple<g::jump>(in, Kind::Goto, word);
+    return;
+  case spec::Form::IndexedBranch: throw Stop{Reason::On, word.data()};
+  case spec::Form::Output: print_line(in, word); return;
+  case spec::Form::Assignment: return; // `let` is none of the language's
+  case spec::Form::Entry:
+  case spec::Form::Values:
+  case spec::Form::Variables:
+  case spec::Form::Arguments: break;
   }
+  const bool returns = robot == spec::Statement::Return;
+  begin(in, returns ? Kind::Return : Kind::Robot, word).robot =
+      returns ? spec::Statement::End : robot;
+  if (form == spec::Form::Entry)
+    tail<g::entry>(in);
+  else if (form == spec::Form::Values)
+    tail<g::values>(in);
+  else if (form == spec::Form::Variables)
+    tail<g::places>(in);
+  else if (!returns)
+    tail<g::arguments>(in);
+  else if (!at_end(in) && !find_word(peek_name(in)).is(Keyword::Else))
+    tail<g::one_value>(in);
   builder_.finish(in.current());
 }
 
@@ -420,8 +401,7 @@ bool Lines::skip_remark(Input& in, const char* line) {
     return false;
   const auto parts = repair::split({line, static_cast<std::size_t>(line_end - line)},
                                    repair::Language::Structured);
-  if (parts.comment.empty() ||
-      (!parts.tokens.empty() && line + parts.tokens.back().at >= at))
+  if (parts.comment.empty() || (!parts.tokens.empty() && line + parts.tokens.back().at >= at))
     return false;
   auto d = structured::foreign(program_, builder_.span(at, at + size), row->languages, row->here);
   d.fix->edits = {{builder_.span(at, line_end), parts.comment}};
@@ -451,68 +431,76 @@ bool Lines::foreign(Input& in, std::string_view first, Position position) {
   while (p != end_ && is_blank(*p))
     ++p;
   const auto after = peek_name(Input(p, end_, ""));
-  const bool brace = first == "}";
-  const bool loop = equal_words(first, "loop") || (brace && holds("while until", after));
+  const bool loop = equal_words(first, "loop") || (first == "}" && holds("while until", after));
   const auto* const row = find_foreign(Stands::First, loop ? "loop" : first, after);
-  if (row == nullptr || (loop && dos_.empty()) || is_own(first))
+  if (row == nullptr || row->here == not_here || (loop && dos_.empty()))
     return false;
-  const bool parts = brace && (find_word(after).is(Keyword::Else) || holds("elseif elif", after));
-  auto here = parts ? std::string_view() : row->here;
   const auto inner = std::find_if(open_.rbegin(), open_.rend(),
                                   [](Kind one) { return is_loop(one) || one == Kind::Select; });
   const bool in_case = inner != open_.rend() && *inner == Kind::Select;
-  const bool plain = find_word(after).kind == WordKind::Name && !after.empty() &&
-                     find_foreign(Stands::First, after) == nullptr;
-  if ((p != end_ && *p == '(' && !holds("elseif select", here)) ||
-      (equal_words(first, "default") && !in_case) || (here.empty() && !plain && !parts))
+  auto here = row->here;
+  const bool needs = here.empty() || holds("elseif select sub function array for", here);
+  const bool calls = p != end_ && *p == '(' && !holds("elseif select", here);
+  const bool other =
+      here.empty() && first != "}" &&
+      (find_word(after).kind != WordKind::Name || find_foreign(Stands::First, after) != nullptr);
+  if (calls || other || (needs && at_end(Input(p, end_, ""))) ||
+      (holds("default", first) && !in_case))
     return false;
   if (in_case && equal_words(first, "break")) {
-    bare(in, Kind::Broken, first);
-    in.bump(!in.empty() && *in.current() == ';' ? 1 : 0);
-    auto d = finding(rules::ForeignWord, span(first), texts::CaseEnds(), texts::RemoveIt());
-    if (position == Position::Line)
-      d.fix = Fix{d.help, {{builder_.span(first.data(), in.current()), ""}}, Safety::Safe};
-    builder_.report(std::move(d));
+    leave_case(in, first, position);
     return true;
   }
+  const bool whole = !row->after.empty() && !here.empty();
+  const std::string_view word(
+      first.data(),
+      static_cast<std::size_t>((whole ? after.data() + after.size() : first.data() + first.size()) -
+                               first.data()));
   if (loop && row->after.empty())
     here = words_of_end(end_of(program_.statements[dos_.back().statement].role()));
   else if (here == block_end)
     here = open_.empty() ? std::string_view() : words_of_end(end_of(open_.back()));
   else if (equal_words(first, "def") && gives_value(p))
     here = "function";
-  if (equal_words(first, "do"))
-    dos_.push_back({program_.statements.size(), program_.diagnostics.size()});
-  const std::string_view word(
-      first.data(), row->after.empty()
-                        ? first.size()
-                        : static_cast<std::size_t>(after.data() + after.size() - first.data()));
   if (loop)
     end_do(*row);
+  else if (equal_words(first, "do"))
+    dos_.push_back({program_.statements.size(), program_.diagnostics.size()});
   const auto said = program_.diagnostics.size();
   builder_.report(structured::foreign(program_, span(word), row->languages, here));
   const auto end = here.starts_with("end ") ? end_of_block(here.substr(4)) : std::nullopt;
   if (end) {
     only_on_line(position, word);
     bare(in, *end, word);
+  } else if (here.empty() && row->here == block_end) { // of a block that nobody knows
+    bare(in, Kind::Broken, word);
+    program_.diagnostics[said].fix.reset();
+    if (!open_.empty())
+      open_.pop_back();
   } else if (here.empty()) {
     in.bump(word.size());
     skip_blanks(in);
-    if (!brace || parts)
-      statement(in, position);
-    else
-      bare(in, Kind::Broken, {in.current(), 0});
+    statement(in, position);
   } else {
     meant(in, word, here.substr(0, here.find(" not")), position);
   }
-  auto& d = program_.diagnostics[said];
   if (here.ends_with(" not")) {
-    const Span all{span(word).begin, builder_.statement().span.end};
-    auto turned =
-        fmt::format("{} ({})", here, trim(program_.text_of({span(word).end, all.end})));
-    d.fix = Fix{d.help, {{all, std::move(turned)}}, Safety::Safe};
+    const Span rest{span(word).end, builder_.statement().span.end};
+    program_.diagnostics[said].fix->edits = {
+        {{span(word).begin, rest.end}, fmt::format("{} ({})", here, trim(program_.text_of(rest)))}};
   }
   return true;
+}
+
+void Lines::leave_case(Input& in, std::string_view word, Position position) {
+  bare(in, Kind::Broken, word);
+  in.bump(!in.empty() && *in.current() == ';' ? 1 : 0);
+  auto d = finding(rules::ForeignWord, span(word), texts::CaseEnds(), texts::RemoveIt());
+  if (position == Position::Line)
+    d.fix = Fix{d.help, {{builder_.span(word.data(), in.current()), ""}}, Safety::Safe};
+  else
+    d.help = {};
+  builder_.report(std::move(d));
 }
 
 void Lines::end_do(const Foreign& row) {
@@ -542,24 +530,6 @@ bool Lines::gives_value(const char* p) const {
       return true;
   }
   return false;
-}
-
-bool Lines::is_own(std::string_view word) {
-  if (own_.empty()) {
-    own_.insert(""); // looked for
-    for (const char* p = begin_; p != end_; p = find_line_end(p, end_)) {
-      Input in(p, end_, "");
-      skip_lines(in);
-      const auto begin = peek_name(in);
-      p = in.current();
-      if (!holds("sub function", begin))
-        continue;
-      in.bump(begin.size());
-      skip_blanks(in);
-      own_.insert(lower(peek_name(in)));
-    }
-  }
-  return own_.contains(lower(word));
 }
 
 } // namespace orb::structured

@@ -5,8 +5,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <set>
-#include <string>
 #include <string_view>
 #include <vector>
 
@@ -105,14 +103,14 @@ private:
   /// A statement that begins with words of others: it is read as if they were ours.
   bool foreign(Input& in, std::string_view first, Position position);
 
+  /// `break` at the end of a `case`.
+  void leave_case(Input& in, std::string_view word, Position position);
+
   /// A `do` whose condition stands at its end is a `repeat`.
   void end_do(const Foreign& row);
 
   /// Whether what a `def` begins gives a value back before the next one begins.
   bool gives_value(const char* p) const;
-
-  /// Whether the file has a sub or function of that name.
-  bool is_own(std::string_view word);
 
   /// Keeps which blocks are open after the statements of a line.
   void note_blocks(std::size_t from, std::string_view line);
@@ -126,10 +124,9 @@ private:
   Builder builder_;
   const char* begin_;
   const char* end_;
-  std::vector<Kind> open_;    ///< the blocks, innermost last; Broken: of others, in braces
-  std::vector<Do> dos_;       ///< `do` without its `loop` yet
-  std::set<std::string> own_; ///< names of subs and functions, once somebody has asked
-  bool numbered_ = false;     ///< a line with a number has been seen
+  std::vector<Kind> open_; ///< the blocks, innermost last; Broken: of others, in braces
+  std::vector<Do> dos_;    ///< `do` without its `loop` yet
+  bool numbered_ = false;  ///< a line with a number has been seen
 };
 
 } // namespace orb::structured
