@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/text/text.h"
 #include "structured/text/messages.h"
 #include "structured/text/program.h"
 #include "structured/text/words.h"
@@ -212,13 +213,18 @@ private:
   }
 
   /// What the line that begins at `mark` would have been. An `if` opens a block only where the line
-  /// ends: otherwise a statement may have been meant to follow.
+  /// ends with its condition: otherwise a statement may have been meant to follow.
   Kind meaning_of(const Mark& mark, const Stop& stop, const char* limit) const {
     if (mark.statements == program_.statements.size())
       return Kind::Broken;
     const auto& first = program_.statements[mark.statements];
-    const bool goes_on = stop.reason == Reason::ExpectedThen && token(stop.begin, limit).size() > 0;
-    return first.one_line || goes_on ? Kind::Broken : first.kind;
+    const std::string_view line(
+        stop.begin,
+        static_cast<std::size_t>(std::find_if(stop.begin, limit, is_line_end) - stop.begin));
+    const auto rest = trim(line.substr(0, std::min(line.find_first_of("'#"), line.find("//"))));
+    const bool ends = rest.empty() || rest.ends_with(':') || rest.ends_with('{') ||
+                      (rest.size() > 3 && equal_words(rest.substr(rest.size() - 4), "then"));
+    return first.one_line || (first.kind == Kind::If && !ends) ? Kind::Broken : first.kind;
   }
 
   template <typename T>

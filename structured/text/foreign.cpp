@@ -41,25 +41,29 @@ constexpr auto rows = std::to_array<Foreign>({
     {First, "endrepeat", "", "end repeat", "BASIC"},
     {First, "endfor", "", "next", "PHP"},
     {First, "end", "for", "next", "Lua"},
-    {First, "end", "switch case", "end select", "Ada"},
+    {First, "end", "switch case", "end select", "BASIC"},
     {First, "endsub endproc", "", "end sub", "BASIC"},
     {First, "endfunction endfunc", "", "end function", "BASIC"},
     {First, "enddef", "", block_end, "Python"},
-    {First, "end", "def proc procedure void func", block_end, "Pascal"},
+    {First, "end", "def proc procedure void func", block_end, "BASIC"},
     {First, "}", "else elseif elif", "", "C/JavaScript"},
     {First, "}", "", block_end, "C/JavaScript"},
     {First, "def", "", "sub", "Python"},
     {First, "proc procedure", "", "sub", "Pascal"},
     {First, "void", "loop", "loop", "Arduino"},
-    {First, "void", "setup main", not_here, "Arduino"},
     {First, "void", "", "sub", "C"},
     {First, "func", "", "function", "Go/Swift"},
-    {First, "foreach", "", "for", "PHP"},
+    {First, "foreach", "", "for", "C#/PHP"},
     {First, "dim", "", "array", "BASIC"},
     {First, "var let", "", "", "JavaScript"},
     {First, "call", "", "", "Visual Basic"},
     {First, "int long byte", "", "", "C"},
     {First, "set", "", "", "Scratch"},
+    {Named, "void", "setup main", "", "Arduino"},
+    {Named, "forever", "", "loop", "Scratch"},
+    {Named, "say", "", "print", "Scratch"},
+    {Named, "echo", "", "print", "PHP"},
+    {Named, "printf println", "", "print", "C/Java"},
     {Last, ";", "", "", "C/JavaScript"},
     {Last, ":", "", "", "Python"},
     {Last, "{", "", "", "C/JavaScript"},
@@ -97,19 +101,27 @@ const Foreign* find_foreign(Stands stands, std::string_view word, std::string_vi
 Diagnostic foreign(const Program& program, Span found, std::string_view languages,
                    std::string_view here) {
   const auto word = program.text_of(found);
-  const auto written = trim(here);
   auto d = finding(rules::ForeignWord, found,
                    languages.empty() ? texts::NotOfThisLanguage(word)
-                   : written.empty() ? texts::Needless(word, languages)
-                                     : texts::WrittenAs(word, languages, written),
-                   written.empty() ? texts::RemoveIt() : texts::Write(written));
+                   : here.empty()    ? texts::Needless(word, languages)
+                                     : texts::WrittenAs(word, languages, here),
+                   here.empty() ? texts::RemoveIt() : texts::Write(here));
   const std::string_view text = program.text;
   if (here.empty() && is_blank(text[found.end])) // the blanks beside it go, too
     found.end = static_cast<std::uint32_t>(text.find_first_not_of(" \t", found.end));
   else
     while (here.empty() && found.begin > 0 && is_blank(text[found.begin - 1]))
       --found.begin;
-  d.fix = Fix{d.help, {Edit{found, std::string(here)}}, Safety::Safe};
+  const auto gap = [&](std::uint32_t beside, std::string_view signs) { // `a&&b` is `a and b`
+    const char c = text[beside];
+    return here.size() > 1 && (is_name_char(c) || signs.find(c) != std::string_view::npos) ? " "
+                                                                                           : "";
+  };
+  d.fix =
+      Fix{d.help,
+          {Edit{found, fmt::format("{}{}{}", found.begin > 0 ? gap(found.begin - 1, ")]") : "",
+                                   here, gap(found.end, is_name_char(word.back()) ? "" : "("))}},
+          Safety::Safe};
   return d;
 }
 
@@ -125,7 +137,9 @@ std::optional<Diagnostic> name_foreign(const Program& program, Span found, Stand
       return d;
     }
   const auto word = program.text_of(found);
-  const auto* const row = find_foreign(stands, word);
+  const auto* row = stands == First ? find_foreign(Named, word) : nullptr;
+  if (row == nullptr)
+    row = find_foreign(stands, word);
   const bool ours = find_word(word).kind == WordKind::Keyword;
   if (row == nullptr &&
       (ours ||

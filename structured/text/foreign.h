@@ -14,6 +14,7 @@ namespace orb::structured {
 
 enum class Stands : std::uint8_t {
   First,  ///< as the first words of a statement
+  Named,  ///< the same, but what is meant by it is left to repair/
   Last,   ///< at the end of a line
   Inside, ///< where a value, or a sign between values, is to stand
   Remark, ///< before a remark
@@ -30,9 +31,6 @@ struct Foreign {
 
 /// What ends the innermost block, in Foreign::here.
 inline constexpr std::string_view block_end = "end …";
-
-/// A word that is no other one's here.
-inline constexpr std::string_view not_here = "-";
 
 const Foreign* find_foreign(Stands stands, std::string_view word, std::string_view after = {});
 

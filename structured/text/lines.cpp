@@ -49,6 +49,8 @@ const char* Lines::parse_line(const char* p) {
     next = in.current();
   } catch (const Stop& stop) {
     builder_.fail(mark, stop, p, end_);
+    while (!dos_.empty() && dos_.back().statement > mark.statements)
+      dos_.pop_back();
     next = resume(p, stop.begin);
   }
   note_blocks(mark.statements, {p, static_cast<std::size_t>(next - p)});
@@ -394,7 +396,7 @@ bool Lines::skip_remark(Input& in, const char* line) {
   const char* const line_end = find_line_end(at, end_);
   const std::string_view rest(at, static_cast<std::size_t>(line_end - at));
   const Foreign* row = nullptr;
-  std::size_t size = 4;
+  auto size = std::min<std::size_t>(rest.size(), 3) + 1;
   while (row == nullptr && --size > 0)
     row = find_foreign(Stands::Remark, rest.substr(0, size));
   if (row == nullptr)
@@ -415,13 +417,13 @@ bool Lines::skip_last(Input& in, std::string_view instead) {
     return false;
   const char* const sign = in.current();
   const auto* const row = find_foreign(Stands::Last, {sign, 1});
-  Input ahead(sign + 1, end_, "");
+  const char* const after = std::find_if(sign, end_, [&](char c) { return c != *sign; });
+  Input ahead(after, end_, "");
   skip_blanks(ahead);
   if (row == nullptr || (!at_end(ahead) && !holds("; / #", {ahead.current(), 1})))
     return false;
-  const bool parted = is_blank(sign[-1]) || instead.empty();
-  builder_.report(structured::foreign(program_, builder_.span(sign, sign + 1), row->languages,
-                                      (parted ? "" : " ") + std::string(instead)));
+  builder_.report(
+      structured::foreign(program_, builder_.span(sign, after), row->languages, instead));
   in.bump(static_cast<std::size_t>(ahead.current() - sign));
   return true;
 }
@@ -433,7 +435,8 @@ bool Lines::foreign(Input& in, std::string_view first, Position position) {
   const auto after = peek_name(Input(p, end_, ""));
   const bool loop = equal_words(first, "loop") || (first == "}" && holds("while until", after));
   const auto* const row = find_foreign(Stands::First, loop ? "loop" : first, after);
-  if (row == nullptr || row->here == not_here || (loop && dos_.empty()))
+  if (row == nullptr || find_foreign(Stands::Named, first, after) != nullptr ||
+      (loop && dos_.empty()))
     return false;
   const auto inner = std::find_if(open_.rbegin(), open_.rend(),
                                   [](Kind one) { return is_loop(one) || one == Kind::Select; });
@@ -467,12 +470,14 @@ bool Lines::foreign(Input& in, std::string_view first, Position position) {
   else if (equal_words(first, "do"))
     dos_.push_back({program_.statements.size(), program_.diagnostics.size()});
   const auto said = program_.diagnostics.size();
-  builder_.report(structured::foreign(program_, span(word), row->languages, here));
+  const bool unknown = here.empty() && row->here == block_end; // it ends a block of others
+  builder_.report(structured::foreign(program_, span(word),
+                                      unknown ? std::string_view() : row->languages, here));
   const auto end = here.starts_with("end ") ? end_of_block(here.substr(4)) : std::nullopt;
   if (end) {
     only_on_line(position, word);
     bare(in, *end, word);
-  } else if (here.empty() && row->here == block_end) { // of a block that nobody knows
+  } else if (unknown) {
     bare(in, Kind::Broken, word);
     program_.diagnostics[said].fix.reset();
     if (!open_.empty())
@@ -495,11 +500,17 @@ bool Lines::foreign(Input& in, std::string_view first, Position position) {
 void Lines::leave_case(Input& in, std::string_view word, Position position) {
   bare(in, Kind::Broken, word);
   in.bump(!in.empty() && *in.current() == ';' ? 1 : 0);
-  auto d = finding(rules::ForeignWord, span(word), texts::CaseEnds(), texts::RemoveIt());
-  if (position == Position::Line)
-    d.fix = Fix{d.help, {{builder_.span(word.data(), in.current()), ""}}, Safety::Safe};
-  else
-    d.help = {};
+  auto d = finding(rules::ForeignWord, span(word), texts::CaseEnds());
+  const char* begin = word.data();
+  while (begin != begin_ && is_blank(begin[-1]))
+    --begin;
+  const char* const end = find_line_end(in.current(), end_);
+  const bool two = std::string_view(end, static_cast<std::size_t>(end_ - end)).starts_with("\r\n");
+  if (position == Position::Line && end != end_ && std::all_of(in.current(), end, is_blank))
+    d.fix =
+        Fix{texts::RemoveLine(), {{builder_.span(begin, end + (two ? 2 : 1)), ""}}, Safety::Safe};
+  if (d.fix)
+    d.help = d.fix->title;
   builder_.report(std::move(d));
 }
 
@@ -512,8 +523,8 @@ void Lines::end_do(const Foreign& row) {
   (opener.kind == Kind::Broken ? opener.meant : opener.kind) = Kind::Repeat;
   if (const auto open = std::find(open_.rbegin(), open_.rend(), Kind::Loop); open != open_.rend())
     *open = Kind::Repeat;
-  program_.diagnostics[begun.finding] =
-      structured::foreign(program_, opener.word, row.languages, "repeat");
+  auto& said = program_.diagnostics[begun.finding];
+  said = structured::foreign(program_, said.span, row.languages, "repeat");
 }
 
 bool Lines::gives_value(const char* p) const {

@@ -22,7 +22,6 @@ public:
 
 private:
   Span span(std::string_view text) const;
-
   const char* parse_line(const char* p);
 
   /// A line with a number, which is said of the first one: the others have it for the same reason.
@@ -55,28 +54,23 @@ private:
   void bare(Input& in, Kind kind, std::string_view word);
 
   void statement(Input& in, Position position);
-
   /// A statement that begins with `word`, as if that were `ours`.
   void meant(Input& in, std::string_view word, std::string_view ours, Position position);
 
   void only_on_line(Position position, std::string_view word) const;
-
   void repeat_line(Input& in, std::string_view word);
 
   /// `local a, b = 5`: what has a value is set right there.
   void local_line(Input& in, std::string_view word);
 
   void case_line(Input& in, std::string_view word);
-
   void keyword(Input& in, Keyword keyword, std::string_view word, Position position);
 
   /// `if` and `elseif`: a condition and `then`.
   void conditional(Input& in, Kind kind, std::string_view word);
 
   void robot(Input& in, spec::Statement robot, std::string_view word, Position position);
-
   void print_line(Input& in, std::string_view word);
-
   void if_line(Input& in, std::string_view word, Position position);
 
   /// `end`, or `end` and what it ends.
@@ -85,11 +79,8 @@ private:
   // ---- names at the beginning of a line
 
   void named(Input& in, std::string_view name, Position position);
-
   void set_name(std::string_view name);
-
   void assignment(Input& in);
-
   void call(Input& in, std::string_view name, char next);
 
   // ---- what other languages write (structured/text/foreign.h)

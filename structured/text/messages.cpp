@@ -72,6 +72,11 @@ Diagnostic naked_arguments(const Program& program, Span found) {
   if (auto known = name_foreign(program, called, Stands::First))
     return *std::move(known);
   const auto word = std::string(program.text_of(called));
+  const auto sign = std::string_view(program.text).substr(found.begin, 2);
+  const auto behind = program.text.find_first_not_of(" \t;", found.begin + 2);
+  if (holds("++ --", sign) && is_line_end(program.text[behind]))
+    return foreign(program, {found.begin, found.begin + 2}, "C/JavaScript",
+                   fmt::format("{}= 1", sign[0]));
   if (program.text[found.begin] == '$')
     return finding(rules::MalformedLine, found, texts::NoDollar(), texts::OnlyIntegers());
   if (spec::find_operator(program.text[found.begin]))
@@ -259,7 +264,7 @@ struct Cause {
   std::string_view first; ///< the word that begins the line; `1`: a statement with values
   const Rule* rule;
   const orb::Text* text;
-  std::string_view filler = {}; ///< of its hole; empty: what was found
+  std::string_view filler = {}; ///< of its hole; empty: what was found, `1`: the first word, `0`: that before
   const orb::Text* help = nullptr;
 };
 
@@ -287,7 +292,7 @@ constexpr auto causes = std::to_array<Cause>({
     {ExpectedBracket, "", "", malformed_line, &texts::MissingBracket},
     {ExpectedParenthesis, ",", "1", malformed_line, &texts::NoParentheses, "1", &texts::RemoveParentheses},
     {ExpectedParenthesis, "", "", malformed_line, &texts::MissingParenthesis},
-    {ExpectedOperand, "", "", malformed_line, &texts::ArgumentInParentheses},
+    {ExpectedOperand, "", "", malformed_line, &texts::ArgumentInParentheses, "0"},
     {ExpectedOne, "", "", &rules::ArgumentCount, &texts::TakesOneValue},
     {ExpectedTwo, "", "", &rules::ArgumentCount, &texts::TakesTwoValues},
     {ExpectedQuote, "", "", malformed_line, &compiler::texts::UnterminatedString},
@@ -318,12 +323,13 @@ std::optional<Diagnostic> cause_of(const Program& program, Reason reason, Span f
   });
   if (row == causes.end())
     return std::nullopt;
-  std::vector<Message> fillers;
-  if (row->text->english.find('{') != std::string_view::npos)
-    fillers.push_back(Message::as_is(std::string(row->filler.empty()  ? text
-                                                 : row->filler == "1" ? first
-                                                                      : row->filler)));
-  Message said(*row->text, std::move(fillers));
+  const auto filler = row->filler == "1"   ? first
+                      : row->filler == "0" ? program.text_of(word_before(program.text, found.begin))
+                      : row->filler.empty() ? text
+                                            : row->filler;
+  const bool filled = row->text->english.find('{') != std::string_view::npos;
+  Message said(*row->text,
+               std::vector<Message>(filled ? 1 : 0, Message::as_is(std::string(filler))));
   const auto help = row->help == nullptr ? Message() : Message(*row->help, {});
   return row->text->english.starts_with("missing")
              ? malformed(program, found, std::move(said), help)
