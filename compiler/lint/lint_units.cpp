@@ -151,12 +151,10 @@ private:
     const auto ms = number(let.expression);
     if (ms != 0)
       timers_.set_above_0(timer);
-    if (!is_timer(timer) || !ms || *ms < 1 || *ms >= least_meant || in_loop(code))
-      return;
+    if (!is_timer(timer) || !ms || *ms < 2 || *ms >= least_meant || in_loop(code))
+      return; // 1 is as good as over
     const auto& row = spec::variables[let.variable.value];
-    add_time(let.expression, *ms,
-             *ms == 1 ? texts::TimerReachesZeroAfterOne(row.word)
-                      : texts::TimerReachesZero(row.word, *ms),
+    add_time(let.expression, *ms, texts::TimerReachesZero(row.word, *ms),
              fmt::format("{} = {}", row.word, *ms * in_second));
   }
 

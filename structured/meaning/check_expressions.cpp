@@ -1,7 +1,7 @@
 #include "structured/meaning/checker.h"
 
 #include "base/duration.h"
-#include "structured/text/messages.h"
+#include "structured/text/foreign.h"
 #include "structured/text/words.h"
 
 #include <algorithm>
@@ -165,7 +165,7 @@ void Checker::report_bitwise(std::uint32_t n) {
   const auto right = program_.nodes[n - 1].span.begin;
   const auto sign = std::string_view(program_.text).substr(0, right).find_last_of(both ? '&' : '|');
   const auto at = static_cast<std::uint32_t>(sign);
-  auto found = habit(program_, {at, at + 1}, both ? "and" : "or");
+  auto found = foreign(program_, {at, at + 1}, {}, both ? "and" : "or");
   found.message = texts::CombinesBits(both ? '&' : '|');
   program_.diagnostics.push_back(std::move(found));
 }

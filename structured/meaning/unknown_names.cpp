@@ -3,7 +3,7 @@
 #include "base/meant.h"
 #include "base/text/suggest.h"
 #include "structured/text/blocks.h"
-#include "structured/text/messages.h"
+#include "structured/text/foreign.h"
 #include "structured/text/rules.h"
 #include "structured/text/texts.h"
 #include "structured/text/words.h"
@@ -46,7 +46,7 @@ void UnknownNames::report(const Node& node, bool needs_declaration) {
       node.span.begin,
       node.span.begin +
           static_cast<std::uint32_t>(program_.name(static_cast<std::uint32_t>(node.value)).size())};
-  if (span.size() > 1 && report_foreign(span, repair::Where::Inside)) // a letter is a name
+  if (span.size() > 1 && report_foreign(span, Stands::Inside)) // a letter is a name
     return;
   if (const auto text = std::string(program_.text_of(span)); find_colour(text)) {
     add(rules::UnknownName, span, texts::IsAColour(text), texts::OnlyAColour("RGB", "RGB " + text));
@@ -71,7 +71,7 @@ void UnknownNames::report_colour(Span span) {
 }
 
 void UnknownNames::report_word(Span span) {
-  if (report_foreign(span, repair::Where::Line))
+  if (report_foreign(span, Stands::First))
     return;
   std::vector<std::string_view> candidates;
   for (const auto& symbol : names_.symbols)
@@ -84,8 +84,8 @@ void UnknownNames::report_word(Span span) {
   suggest(span, candidates, texts::NeitherStatementNorSub);
 }
 
-bool UnknownNames::report_foreign(Span span, repair::Where where) {
-  auto known = foreign(program_, span, where);
+bool UnknownNames::report_foreign(Span span, Stands stands) {
+  auto known = name_foreign(program_, span, stands);
   if (known && !incomplete_)
     program_.diagnostics.push_back(*std::move(known));
   return known.has_value();

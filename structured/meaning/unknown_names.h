@@ -3,8 +3,8 @@
 // Private to resolve.cpp.
 
 #include "base/message.h"
-#include "repair/idioms.h"
 #include "structured/meaning/symbols.h"
+#include "structured/text/foreign.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -32,7 +32,7 @@ public:
 private:
   Diagnostic& add(const Rule& rule, Span span, Message message, Message help = {});
   /// Says what a word of another language is here; false where it is none.
-  bool report_foreign(Span span, repair::Where where);
+  bool report_foreign(Span span, Stands stands);
   void suggest(Span span, const std::vector<std::string_view>& candidates,
                const Row<Hole::Code>& unknown);
 

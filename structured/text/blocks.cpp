@@ -361,6 +361,11 @@ std::optional<Kind> end_of_block(std::string_view word) {
   return std::nullopt;
 }
 
+Kind end_of(Kind opener) {
+  const auto* const block = by_opener(opener);
+  return block == nullptr ? Kind::Broken : block->end;
+}
+
 std::string_view words_of_end(Kind end) {
   for (const auto& block : blocks)
     if (block.end == end)

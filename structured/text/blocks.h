@@ -11,6 +11,9 @@ namespace orb::structured {
 /// What `end WORD` ends, where WORD is one that can be ended.
 std::optional<Kind> end_of_block(std::string_view word);
 
+/// What ends the block of an opener; Broken for anything else.
+Kind end_of(Kind opener);
+
 /// How the end of a block is written: `end if`, `next`.
 std::string_view words_of_end(Kind end);
 

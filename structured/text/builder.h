@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/text/text.h"
 #include "structured/text/messages.h"
 #include "structured/text/program.h"
 #include "structured/text/words.h"
@@ -51,12 +52,6 @@ public:
     return size(program_.names) - 1;
   }
 
-  bool is_known(Span name) const {
-    const auto text = program_.text_of(name);
-    return std::any_of(program_.names.begin(), program_.names.end(),
-                       [&](Span other) { return equal_words(program_.text_of(other), text); });
-  }
-
   // ---- expressions
 
   void leaf(NodeKind kind, std::uint8_t what, std::int32_t value, Span where) {
@@ -90,13 +85,7 @@ public:
       comparison = Comparison::Less;
     else if (*begin == '>')
       comparison = Comparison::Greater;
-    if (two == "==")
-      report(habit(program_, span(begin, begin + 2), "="));
     binary(NodeKind::Relation, static_cast<std::uint8_t>(comparison));
-  }
-  void signs(const char* begin, std::string_view instead) {
-    const bool apart = base_ < begin && is_name_char(begin[-1]);
-    report(habit(program_, span(begin, begin + 2), fmt::format("{}{}", apart ? " " : "", instead)));
   }
   std::uint32_t nodes() const { return size(program_.nodes); }
   Node& last() { return program_.nodes.back(); }
@@ -158,13 +147,17 @@ public:
   /// Puts one broken statement in place of all since `mark`.
   void fail(const Mark& mark, const Stop& stop, const char* begin, const char* limit) {
     const auto meant = meaning_of(mark, stop, limit);
+    auto& said = program_.diagnostics;
+    const bool foreign = said.size() > mark.diagnostics; // what others write there says more
     program_.statements.resize(mark.statements);
     program_.items.resize(mark.items);
     program_.nodes.resize(mark.nodes);
-    program_.diagnostics.resize(mark.diagnostics);
+    said.resize(mark.diagnostics + (foreign ? 1 : 0));
     const auto found = stop.end != nullptr ? span(stop.begin, stop.end) : token(stop.begin, limit);
     const auto reason = is_second_index(stop.reason, found) ? Reason::SecondIndex : stop.reason;
-    if (!is_said(reason, found))
+    if (foreign)
+      said.back().fix.reset();
+    else if (!is_said(reason, found))
       report(explain(program_, reason, found));
     this->begin(Kind::Broken, span(begin, begin)).meant = meant;
     begin_line();
@@ -220,13 +213,18 @@ private:
   }
 
   /// What the line that begins at `mark` would have been. An `if` opens a block only where the line
-  /// ends: otherwise a statement may have been meant to follow.
+  /// ends with its condition: otherwise a statement may have been meant to follow.
   Kind meaning_of(const Mark& mark, const Stop& stop, const char* limit) const {
     if (mark.statements == program_.statements.size())
       return Kind::Broken;
     const auto& first = program_.statements[mark.statements];
-    const bool goes_on = stop.reason == Reason::ExpectedThen && token(stop.begin, limit).size() > 0;
-    return first.one_line || goes_on ? Kind::Broken : first.kind;
+    const std::string_view line(
+        stop.begin,
+        static_cast<std::size_t>(std::find_if(stop.begin, limit, is_line_end) - stop.begin));
+    const auto rest = trim(line.substr(0, std::min(line.find_first_of("'#"), line.find("//"))));
+    const bool ends = rest.empty() || rest.ends_with(':') || rest.ends_with('{') ||
+                      (rest.size() > 3 && equal_words(rest.substr(rest.size() - 4), "then"));
+    return first.one_line || (first.kind == Kind::If && !ends) ? Kind::Broken : first.kind;
   }
 
   template <typename T>

@@ -35,11 +35,9 @@ struct word_to        : seq<particle<'t', 'o'>, gap> {};
 struct word_step      : seq<particle<'s', 't', 'e', 'p'>, gap> {};
 struct word_then      : seq<particle<'t', 'h', 'e', 'n'>, gap> {};
 struct not_word       : particle<'n', 'o', 't'> {};
-struct and_signs      : two<'&'> {}; // a habit of other languages, reported and taken
-struct or_signs       : two<'|'> {};
 struct word_not       : seq<not_word, gap> {};
-struct word_and       : seq<sor<particle<'a', 'n', 'd'>, and_signs>, join> {};
-struct word_or        : seq<sor<particle<'o', 'r'>, or_signs>, join> {};
+struct word_and       : seq<particle<'a', 'n', 'd'>, join> {};
+struct word_or        : seq<particle<'o', 'r'>, join> {};
 
 // expressions and conditions
 
@@ -59,11 +57,11 @@ struct last_brace     : seq<one<'{', '}'>, star<blank>, sor<eolf, one<'\'', '\r'
 struct product_sign   : seq<not_at<sor<two<'/'>, last_brace>>, one<'*', '/', '%', '{', '}'>> {};
 struct product_tail   : seq<product_sign, join, must<factor>> {};
 struct product        : seq<factor, star<product_tail>> {};
-struct sum_sign       : seq<not_at<sor<and_signs, or_signs>>, one<'+', '-', '&', '|'>> {};
+struct sum_sign       : one<'+', '-', '&', '|'> {};
 struct sum_tail       : seq<sum_sign, join, must<product>> {};
 struct sum            : seq<product, star<sum_tail>> {};
 struct relation_sign  : sor<string<'<', '>'>, string<'<', '='>, string<'>', '='>, string<'!', '='>,
-                            string<'=', '='>, one<'=', '<', '>', '!'>> {};
+                            one<'=', '<', '>', '!'>> {};
 struct relation_tail  : seq<relation_sign, join, must<sum>> {};
 struct relation       : seq<sum, opt<relation_tail>> {};
 struct negated;

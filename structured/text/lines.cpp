@@ -1,10 +1,16 @@
 #include "structured/text/lines.h"
 
+#include "base/text/text.h"
+#include "repair/tokens.h"
 #include "structured/text/blocks.h"
+#include "structured/text/foreign.h"
 #include "structured/text/messages.h"
+#include "structured/text/rules.h"
 #include "structured/text/texts.h"
 
 #include <algorithm>
+#include <fmt/format.h>
+#include <iterator>
 #include <utility>
 
 namespace orb::structured {
@@ -25,26 +31,57 @@ const char* Lines::parse_line(const char* p) {
   Input in(p, end_, "");
   skip_lines(in);
   p = in.current();
-  if (p == end_)
-    return p;
-  if (skip_foreign_comment(in))
+  if (p == end_ || skip_remark(in, p))
     return in.current();
   builder_.begin_line();
   const auto mark = builder_.mark();
+  const char* next = nullptr;
   try {
     if (is_digit(*p))
       return numbered(p);
     statement(in, Position::Line);
     builder_.begin_line();
     skip_blanks(in);
-    skip_foreign_end(in);
-    if (!at_end(in) && !skip_foreign_comment(in))
+    while (skip_last(in, {}))
+      continue;
+    if (!at_end(in) && !skip_remark(in, p))
       throw Stop{Reason::Trailing, in.current()};
+    next = in.current();
   } catch (const Stop& stop) {
     builder_.fail(mark, stop, p, end_);
-    return resume(p, stop.begin);
+    while (!dos_.empty() && dos_.back().statement > mark.statements)
+      dos_.pop_back();
+    next = resume(p, stop.begin);
   }
-  return in.current();
+  note_blocks(mark.statements, {p, static_cast<std::size_t>(next - p)});
+  return next;
+}
+
+void Lines::note_blocks(std::size_t from, std::string_view line) {
+  for (auto i = from; i < program_.statements.size(); ++i) {
+    const auto role = program_.statements[i].role();
+    if (opens_block(role))
+      open_.push_back(role);
+    if (!closes_block(role))
+      continue;
+    const auto opener =
+        std::find_if(open_.rbegin(), open_.rend(), [&](Kind one) { return end_of(one) == role; });
+    if (opener != open_.rend())
+      open_.erase(std::prev(opener.base()), open_.end());
+  }
+  if (builder_.statement().role() == Kind::Broken &&
+      trim(line.substr(0, line.find('\''))).ends_with('{'))
+    open_.push_back(Kind::Broken);
+  if (open_.size() > 64) // nobody nests so deep
+    open_.erase(open_.begin());
+}
+
+const char* Lines::numbered(const char* p) {
+  if (!numbered_)
+    builder_.report(explain(program_, Reason::LineNumber, builder_.token(p, end_)));
+  numbered_ = true;
+  builder_.begin(Kind::Broken, builder_.span(p, p));
+  return find_line_end(p, end_);
 }
 
 const char* Lines::resume(const char* begin, const char* at) const {
@@ -82,20 +119,26 @@ void Lines::bare(Input& in, Kind kind, std::string_view word) {
 
 void Lines::statement(Input& in, Position position) {
   const auto name = peek_name(in);
-  if (name.empty()) {
-    if (*in.current() != '?')
+  if (!name.empty()) {
+    if (holds("else select exit continue loop end", name) && foreign(in, name, position))
+      return;
+    meant(in, name, name, position);
+  } else if (in.empty() || *in.current() != '}' || !foreign(in, {in.current(), 1}, position)) {
+    if (in.empty() || *in.current() != '?')
       throw Stop{at_end(in) ? Reason::ExpectedStatement : Reason::NotAStatement, in.current()};
     print_line(in, {in.current(), 1});
-    return;
   }
-  const auto word = find_word(name);
-  switch (word.kind) {
-  case WordKind::Name: named(in, name, position); return;
+}
+
+void Lines::meant(Input& in, std::string_view word, std::string_view ours, Position position) {
+  const auto meant = find_word(ours);
+  switch (meant.kind) {
+  case WordKind::Name: named(in, word, position); return;
   case WordKind::Variable: assignment(in); return;
-  case WordKind::Function: throw Stop{Reason::NotAStatement, name.data()};
-  case WordKind::Keyword: keyword(in, static_cast<Keyword>(word.index), name, position); return;
+  case WordKind::Function: throw Stop{Reason::NotAStatement, word.data()};
+  case WordKind::Keyword: keyword(in, static_cast<Keyword>(meant.index), word, position); return;
   case WordKind::Statement:
-    robot(in, static_cast<spec::Statement>(word.index), name, position);
+    robot(in, static_cast<spec::Statement>(meant.index), word, position);
     return;
   }
 }
@@ -103,17 +146,6 @@ void Lines::statement(Input& in, Position position) {
 void Lines::only_on_line(Position position, std::string_view word) const {
   if (position == Position::Branch)
     throw Stop{Reason::BlockInOneLine, word.data()};
-}
-
-void Lines::leave_line(Input& in, Kind kind, std::string_view word) {
-  bare(in, kind, word);
-  const auto loop = peek_name(in); // `exit for`, as elsewhere
-  if (kind == Kind::Exit && leave_routine(in, word, loop))
-    return;
-  if (is_loop_word(loop) || equal_words(loop, "do")) {
-    builder_.report(habit(program_, builder_.span(word.data(), loop.data() + loop.size()), word));
-    in.bump(loop.size());
-  }
 }
 
 void Lines::repeat_line(Input& in, std::string_view word) {
@@ -144,34 +176,6 @@ void Lines::local_line(Input& in, std::string_view word) {
   }
 }
 
-void Lines::next_line(Input& in, std::string_view word) {
-  simple<g::counted>(in, Kind::Next, word);
-  const auto begin = builder_.statement().span.begin;
-  bool several = false;
-  for (; !in.empty() && *in.current() == ','; several = true) {
-    builder_.statement().items_end = builder_.statement().items_begin; // in whatever order
-    tail<g::comma>(in);
-    builder_.begin(Kind::Next, builder_.span(in.current(), in.current()));
-    tail<g::place>(in);
-    builder_.finish(in.current());
-  }
-  if (!several)
-    return;
-  builder_.statement().items_end = builder_.statement().items_begin;
-  builder_.report(habit(program_, {begin, builder_.statement().span.end}, {}, texts::NextEach()));
-}
-
-void Lines::select_line(Input& in, std::string_view word) {
-  begin(in, Kind::Select, word);
-  if (equal_words(peek_name(in), "case")) {
-    builder_.report(habit(program_, span(peek_name(in)), " "));
-    in.bump(4);
-    skip_blanks(in);
-  }
-  tail<g::one_value>(in);
-  builder_.finish(in.current());
-}
-
 void Lines::case_line(Input& in, std::string_view word) {
   begin(in, Kind::Case, word);
   if (equal_words(peek_name(in), "else")) {
@@ -187,20 +191,20 @@ void Lines::keyword(Input& in, Keyword keyword, std::string_view word, Position 
   if (keyword != Keyword::Exit && keyword != Keyword::Continue)
     only_on_line(position, word);
   switch (keyword) {
-  case Keyword::Exit: leave_line(in, Kind::Exit, word); return;
-  case Keyword::Continue: leave_line(in, Kind::Continue, word); return;
+  case Keyword::Exit: bare(in, Kind::Exit, word); return;
+  case Keyword::Continue: bare(in, Kind::Continue, word); return;
   case Keyword::Const: simple<g::constant>(in, Kind::Const, word); return;
   case Keyword::Local: local_line(in, word); return;
   case Keyword::Array: simple<g::array>(in, Kind::Array, word); return;
   case Keyword::Use: simple<g::file>(in, Kind::Use, word); return;
   case Keyword::Include: simple<g::file>(in, Kind::Include, word); return;
   case Keyword::ElseIf: conditional(in, Kind::ElseIf, word); return;
-  case Keyword::Else: else_line(in, word); return;
+  case Keyword::Else: bare(in, Kind::Else, word); return;
   case Keyword::While: simple<g::one_value>(in, Kind::While, word); return;
   case Keyword::Repeat: repeat_line(in, word); return;
   case Keyword::Until: simple<g::one_value>(in, Kind::Until, word); return;
-  case Keyword::Loop: loop_line(in, word); return;
-  case Keyword::Select: select_line(in, word); return;
+  case Keyword::Loop: bare(in, Kind::Loop, word); return;
+  case Keyword::Select: simple<g::one_value>(in, Kind::Select, word); return;
   case Keyword::Case: case_line(in, word); return;
   case Keyword::Sub: simple<g::routine>(in, Kind::Sub, word); return;
   case Keyword::Function: simple<g::routine>(in, Kind::Function, word); return;
@@ -218,95 +222,51 @@ void Lines::keyword(Input& in, Keyword keyword, std::string_view word, Position 
 void Lines::conditional(Input& in, Kind kind, std::string_view word) {
   begin(in, kind, word);
   tail<g::one_value>(in);
-  if (!tao::pegtl::parse<g::word_then, Action, Control>(in, builder_) &&
-      !skip_foreign_end(in, " then")) {
+  if (!tao::pegtl::parse<g::word_then, Action, Control>(in, builder_) && !skip_last(in, "then")) {
     if (!at_end(in) || kind == Kind::If)
       throw Stop{Reason::ExpectedThen, in.current()};
   }
   builder_.finish(in.current());
 }
 
-void Lines::else_line(Input& in, std::string_view word) {
-  skip_blanks(in);
-  const char* const begin_word = in.current();
-  in.bump(word.size());
-  skip_blanks(in);
-  if (equal_words(peek_name(in), "if")) { // `else if c then` opens no block of its own here
-    const char* const end = in.current() + 2;
-    builder_.report(habit(program_, builder_.span(begin_word, end), "elseif"));
-    const auto joined = std::string_view(begin_word, static_cast<std::size_t>(end - begin_word));
-    in.bump(2);
-    skip_blanks(in);
-    builder_.begin(Kind::ElseIf, span(joined));
-    tail<g::one_value>(in);
-    if (!tao::pegtl::parse<g::word_then, Action, Control>(in, builder_))
-      throw Stop{Reason::ExpectedThen, in.current()};
-    builder_.finish(in.current());
-    return;
-  }
-  builder_.begin(Kind::Else, span(word));
-  builder_.finish(in.current());
-}
-
 void Lines::robot(Input& in, spec::Statement robot, std::string_view word, Position position) {
-  switch (robot) {
-  case spec::Statement::If: if_line(in, word, position); return;
-  case spec::Statement::For:
-    only_on_line(position, word);
-    simple<g::counting>(in, Kind::For, word);
+  if (robot == spec::Statement::End) {
+    end_line(in, word, position);
     return;
-  case spec::Statement::Next:
-    only_on_line(position, word);
-    next_line(in, word);
-    return;
-  case spec::Statement::Goto: simple<g::jump>(in, Kind::Goto, word); return;
-  case spec::Statement::Gosub: throw Stop{Reason::Gosub, word.data()};
-  case spec::Statement::On: throw Stop{Reason::On, word.data()};
-  case spec::Statement::Return:
-    begin(in, Kind::Return, word);
-    if (!at_end(in) && !find_word(peek_name(in)).is(Keyword::Else))
-      tail<g::one_value>(in);
-    builder_.finish(in.current());
-    return;
-  case spec::Statement::Print: print_line(in, word); return;
-  case spec::Statement::End: end_line(in, word, position); return;
-  case spec::Statement::Let:
-  case spec::Statement::Input:
-  case spec::Statement::Delay:
-  case spec::Statement::Rgb:
-  case spec::Statement::Ledc:
-  case spec::Statement::BackLed:
-  case spec::Statement::Random:
-  case spec::Statement::Goroll:
-  case spec::Statement::Heading:
-  case spec::Statement::Raw:
-  case spec::Statement::Locate:
-  case spec::Statement::Basflg:
-  case spec::Statement::Data:
-  case spec::Statement::Rstr:
-  case spec::Statement::Read:
-  case spec::Statement::Tron:
-  case spec::Statement::Troff:
-  case spec::Statement::Reset:
-  case spec::Statement::Sleep:
-  case spec::Statement::Macrun:
-  case spec::Statement::Mackill: break;
   }
-  begin(in, Kind::Robot, word).robot = robot;
-  refuse_parentheses(in);
-  switch (spec::info(robot).form) {
-  case spec::Form::Entry: tail<g::entry>(in); break;
-  case spec::Form::Values: tail<g::values>(in); break;
-  case spec::Form::Variables: tail<g::places>(in); break;
-  case spec::Form::Arguments: tail<g::arguments>(in); break;
-  case spec::Form::Assignment:
-  case spec::Form::Conditional:
-  case spec::Form::Loop:
-  case spec::Form::LoopEnd:
+  const auto form = spec::info(robot).form;
+  if (form == spec::Form::Loop || form == spec::Form::LoopEnd)
+    only_on_line(position, word);
+  switch (form) {
+  case spec::Form::Conditional: if_line(in, word, position); return;
+  case spec::Form::Loop: simple<g::counting>(in, Kind::For, word); return;
+  case spec::Form::LoopEnd: simple<g::counted>(in, Kind::Next, word); return;
   case spec::Form::Branch:
-  case spec::Form::IndexedBranch:
-  case spec::Form::Output: break;
+    if (robot == spec::Statement::Gosub)
+      throw Stop{Reason::Gosub, word.data()};
+    simple<g::jump>(in, Kind::Goto, word);
+    return;
+  case spec::Form::IndexedBranch: throw Stop{Reason::On, word.data()};
+  case spec::Form::Output: print_line(in, word); return;
+  case spec::Form::Assignment: return; // `let` is none of the language's
+  case spec::Form::Entry:
+  case spec::Form::Values:
+  case spec::Form::Variables:
+  case spec::Form::Arguments: break;
   }
+  const bool returns = robot == spec::Statement::Return;
+  begin(in, returns ? Kind::Return : Kind::Robot, word).robot =
+      returns ? spec::Statement::End : robot;
+  if (form == spec::Form::Entry)
+    tail<g::entry>(in);
+  else if (form == spec::Form::Values)
+    tail<g::values>(in);
+  else if (form == spec::Form::Variables)
+    tail<g::places>(in);
+  else if (!returns)
+    tail<g::arguments>(in);
+  else if (!at_end(in) && !find_word(peek_name(in)).is(Keyword::Else))
+    tail<g::one_value>(in);
   builder_.finish(in.current());
 }
 
@@ -322,26 +282,7 @@ void Lines::print_line(Input& in, std::string_view word) {
   Input rest(quote + 1, end_, "");
   skip_blanks(rest);
   if (at_end(rest))
-    builder_.report(single_quotes(program_, builder_.span(in.current(), quote + 1)));
-}
-
-void Lines::refuse_parentheses(const Input& in) const {
-  const char* const begin = in.current();
-  if (in.empty() || *begin != '(')
-    return;
-  int depth = 0;
-  bool comma = false;
-  for (const char* p = begin; p != end_ && !is_line_end(*p) && *p != '\''; ++p) {
-    depth += *p == '(' ? 1 : *p == ')' ? -1 : 0;
-    comma = comma || (*p == ',' && depth == 1);
-    if (depth > 0)
-      continue;
-    Input rest(p + 1, end_, "");
-    skip_blanks(rest);
-    if (comma && at_end(rest))
-      throw Stop{Reason::Parenthesised, begin, p + 1};
-    return;
-  }
+    throw Stop{Reason::SingleQuotes, in.current(), quote + 1};
 }
 
 void Lines::if_line(Input& in, std::string_view word, Position position) {
@@ -367,17 +308,7 @@ void Lines::end_line(Input& in, std::string_view word, Position position) {
   in.bump(word.size());
   skip_blanks(in);
   const auto what = peek_name(in);
-  auto kind = end_of_block(what);
-  const auto routine = foreign_routine(what);
-  const bool chooses = equal_words(what, "switch") || equal_words(what, "case");
-  if (equal_words(what, "for") || chooses || routine) {
-    kind = chooses                 ? Kind::EndSelect
-           : !routine              ? Kind::Next
-           : *routine == Kind::Sub ? Kind::EndSub
-                                   : Kind::EndFunction;
-    builder_.report(habit(program_, builder_.span(word.data(), what.data() + what.size()),
-                          words_of_end(*kind)));
-  }
+  const auto kind = end_of_block(what);
   if (!kind) {
     builder_.begin(Kind::Robot, span(word)).robot = spec::Statement::End;
     builder_.finish(in.current());
@@ -400,12 +331,9 @@ void Lines::named(Input& in, std::string_view name, Position position) {
     assignment(in);
     return;
   }
-  if ((next == '+' || next == '-') && after == next) {
-    step(in, name, {ahead, 2});
+  if (foreign(in, name, position))
     return;
-  }
-  const bool otherwise = equal_words(name, "default") && innermost() == Kind::Select;
-  if (next == ':' && position == Position::Line && !otherwise) {
+  if (next == ':' && position == Position::Line) {
     begin(in, Kind::Label, name);
     builder_.statement().word = {};
     set_name(name);
@@ -413,8 +341,6 @@ void Lines::named(Input& in, std::string_view name, Position position) {
     builder_.finish(in.current());
     return;
   }
-  if ((next != '(' || equal_words(name, "switch")) && foreign(in, name, position))
-    return;
   call(in, name, next);
 }
 
@@ -429,18 +355,12 @@ void Lines::assignment(Input& in) {
   builder_.begin(Kind::Assign, builder_.span(in.current(), in.current()));
   tail<g::place>(in);
   const char* const sign = in.current();
-  if (!in.empty() && *sign == ':' && sign + 1 != end_ && sign[1] == '=') {
-    builder_.report(habit(program_, builder_.span(sign, sign + 2), "="));
-    in.bump(1);
-  } else if (!in.empty() && *sign != '=') {
+  if (!in.empty() && *sign != '=') {
     const auto operation = spec::find_operator(*sign);
     if (!operation || sign + 1 == end_ || sign[1] != '=' || *sign == '{' || *sign == '}' ||
         *sign == '&' || *sign == '|')
       throw Stop{Reason::ExpectedEquals, sign};
     builder_.statement().operation = static_cast<std::uint8_t>(*operation);
-    in.bump(1);
-  } else if (!in.empty() && sign + 1 != end_ && sign[1] == '=') {
-    builder_.report(habit(program_, builder_.span(sign, sign + 2), "="));
     in.bump(1);
   }
   tail<g::equals>(in);
@@ -465,6 +385,162 @@ void Lines::call(Input& in, std::string_view name, char next) {
     throw Stop{Reason::NakedArguments, in.current()};
   }
   builder_.finish(in.current());
+}
+
+// ---- what other languages write
+
+bool Lines::skip_remark(Input& in, const char* line) {
+  if (in.empty() || !holds("/ # - r R", {in.current(), 1}))
+    return false;
+  const char* const at = in.current();
+  const char* const line_end = find_line_end(at, end_);
+  const std::string_view rest(at, static_cast<std::size_t>(line_end - at));
+  const Foreign* row = nullptr;
+  auto size = std::min<std::size_t>(rest.size(), 3) + 1;
+  while (row == nullptr && --size > 0)
+    row = find_foreign(Stands::Remark, rest.substr(0, size));
+  if (row == nullptr)
+    return false;
+  const auto parts = repair::split({line, static_cast<std::size_t>(line_end - line)},
+                                   repair::Language::Structured);
+  if (parts.comment.empty() || (!parts.tokens.empty() && line + parts.tokens.back().at >= at))
+    return false;
+  auto d = structured::foreign(program_, builder_.span(at, at + size), row->languages, row->here);
+  d.fix->edits = {{builder_.span(at, line_end), parts.comment}};
+  builder_.report(std::move(d));
+  in.bump(rest.size());
+  return true;
+}
+
+bool Lines::skip_last(Input& in, std::string_view instead) {
+  if (in.empty())
+    return false;
+  const char* const sign = in.current();
+  const auto* const row = find_foreign(Stands::Last, {sign, 1});
+  const char* const after = std::find_if(sign, end_, [&](char c) { return c != *sign; });
+  Input ahead(after, end_, "");
+  skip_blanks(ahead);
+  if (row == nullptr || (!at_end(ahead) && !holds("; / #", {ahead.current(), 1})))
+    return false;
+  builder_.report(
+      structured::foreign(program_, builder_.span(sign, after), row->languages, instead));
+  in.bump(static_cast<std::size_t>(ahead.current() - sign));
+  return true;
+}
+
+bool Lines::foreign(Input& in, std::string_view first, Position position) {
+  const char* p = first.data() + first.size();
+  while (p != end_ && is_blank(*p))
+    ++p;
+  const auto after = peek_name(Input(p, end_, ""));
+  const bool loop = equal_words(first, "loop") || (first == "}" && holds("while until", after));
+  const auto* const row = find_foreign(Stands::First, loop ? "loop" : first, after);
+  if (row == nullptr || find_foreign(Stands::Named, first, after) != nullptr ||
+      (loop && dos_.empty()))
+    return false;
+  const auto inner = std::find_if(open_.rbegin(), open_.rend(),
+                                  [](Kind one) { return is_loop(one) || one == Kind::Select; });
+  const bool in_case = inner != open_.rend() && *inner == Kind::Select;
+  auto here = row->here;
+  const bool needs = here.empty() || holds("elseif select sub function array for", here);
+  const bool calls = p != end_ && *p == '(' && !holds("elseif select", here);
+  const bool other =
+      here.empty() && first != "}" &&
+      (find_word(after).kind != WordKind::Name || find_foreign(Stands::First, after) != nullptr);
+  if (calls || other || (needs && at_end(Input(p, end_, ""))) ||
+      (holds("default", first) && !in_case))
+    return false;
+  if (in_case && equal_words(first, "break")) {
+    leave_case(in, first, position);
+    return true;
+  }
+  const bool whole = !row->after.empty() && !here.empty();
+  const std::string_view word(
+      first.data(),
+      static_cast<std::size_t>((whole ? after.data() + after.size() : first.data() + first.size()) -
+                               first.data()));
+  if (loop && row->after.empty())
+    here = words_of_end(end_of(program_.statements[dos_.back().statement].role()));
+  else if (here == block_end)
+    here = open_.empty() ? std::string_view() : words_of_end(end_of(open_.back()));
+  else if (equal_words(first, "def") && gives_value(p))
+    here = "function";
+  if (loop)
+    end_do(*row);
+  else if (equal_words(first, "do"))
+    dos_.push_back({program_.statements.size(), program_.diagnostics.size()});
+  const auto said = program_.diagnostics.size();
+  const bool unknown = here.empty() && row->here == block_end; // it ends a block of others
+  builder_.report(structured::foreign(program_, span(word),
+                                      unknown ? std::string_view() : row->languages, here));
+  const auto end = here.starts_with("end ") ? end_of_block(here.substr(4)) : std::nullopt;
+  if (end) {
+    only_on_line(position, word);
+    bare(in, *end, word);
+  } else if (unknown) {
+    bare(in, Kind::Broken, word);
+    program_.diagnostics[said].fix.reset();
+    if (!open_.empty())
+      open_.pop_back();
+  } else if (here.empty()) {
+    in.bump(word.size());
+    skip_blanks(in);
+    statement(in, position);
+  } else {
+    meant(in, word, here.substr(0, here.find(" not")), position);
+  }
+  if (here.ends_with(" not")) {
+    const Span rest{span(word).end, builder_.statement().span.end};
+    program_.diagnostics[said].fix->edits = {
+        {{span(word).begin, rest.end}, fmt::format("{} ({})", here, trim(program_.text_of(rest)))}};
+  }
+  return true;
+}
+
+void Lines::leave_case(Input& in, std::string_view word, Position position) {
+  bare(in, Kind::Broken, word);
+  in.bump(!in.empty() && *in.current() == ';' ? 1 : 0);
+  auto d = finding(rules::ForeignWord, span(word), texts::CaseEnds());
+  const char* begin = word.data();
+  while (begin != begin_ && is_blank(begin[-1]))
+    --begin;
+  const char* const end = find_line_end(in.current(), end_);
+  const bool two = std::string_view(end, static_cast<std::size_t>(end_ - end)).starts_with("\r\n");
+  if (position == Position::Line && end != end_ && std::all_of(in.current(), end, is_blank))
+    d.fix =
+        Fix{texts::RemoveLine(), {{builder_.span(begin, end + (two ? 2 : 1)), ""}}, Safety::Safe};
+  if (d.fix)
+    d.help = d.fix->title;
+  builder_.report(std::move(d));
+}
+
+void Lines::end_do(const Foreign& row) {
+  const auto begun = dos_.back();
+  dos_.pop_back();
+  auto& opener = program_.statements[begun.statement];
+  if (row.after.empty() || opener.role() != Kind::Loop)
+    return;
+  (opener.kind == Kind::Broken ? opener.meant : opener.kind) = Kind::Repeat;
+  if (const auto open = std::find(open_.rbegin(), open_.rend(), Kind::Loop); open != open_.rend())
+    *open = Kind::Repeat;
+  auto& said = program_.diagnostics[begun.finding];
+  said = structured::foreign(program_, said.span, row.languages, "repeat");
+}
+
+bool Lines::gives_value(const char* p) const {
+  while ((p = find_line_end(p, end_)) != end_) {
+    Input in(p, end_, "");
+    skip_lines(in);
+    p = in.current();
+    const auto begin = peek_name(in);
+    const std::string_view line(p, static_cast<std::size_t>(find_line_end(p, end_) - p));
+    if (holds("sub function def", begin))
+      return false;
+    const auto at = lower(line).find("return ");
+    if (at != std::string::npos)
+      return true;
+  }
+  return false;
 }
 
 } // namespace orb::structured

@@ -1,10 +1,10 @@
 #pragma once
 
+#include "structured/text/foreign.h"
 #include "structured/text/matching.h"
 
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -22,7 +22,6 @@ public:
 
 private:
   Span span(std::string_view text) const;
-
   const char* parse_line(const char* p);
 
   /// A line with a number, which is said of the first one: the others have it for the same reason.
@@ -37,14 +36,6 @@ private:
   bool begins_statement(const char* last, const char* at) const;
 
   static bool at_end(const Input& in);
-
-  /// `;` and `:` at the end of a line, which other languages want there.
-  bool skip_foreign_end(Input& in, std::string_view instead = " ");
-
-  /// `//` and `#` as they begin comments elsewhere, and `rem`.
-  bool skip_foreign_comment(Input& in);
-  /// Whether `//` stands between values: elsewhere it divides.
-  bool divides(const char* sign, const char* line_end);
 
   template <typename Rule>
   void tail(Input& in) {
@@ -63,57 +54,23 @@ private:
   void bare(Input& in, Kind kind, std::string_view word);
 
   void statement(Input& in, Position position);
+  /// A statement that begins with `word`, as if that were `ours`.
+  void meant(Input& in, std::string_view word, std::string_view ours, Position position);
 
   void only_on_line(Position position, std::string_view word) const;
-
-  /// `exit` and `continue`, which may stand in a branch.
-  void leave_line(Input& in, Kind kind, std::string_view word);
-
-  /// `exit sub` and `exit function`.
-  bool leave_routine(Input& in, std::string_view word, std::string_view routine);
-
   void repeat_line(Input& in, std::string_view word);
 
   /// `local a, b = 5`: what has a value is set right there.
   void local_line(Input& in, std::string_view word);
 
-  /// `next`; also `next j, i`, which ends two loops elsewhere.
-  void next_line(Input& in, std::string_view word);
-
-  void select_line(Input& in, std::string_view word);
-
   void case_line(Input& in, std::string_view word);
-
   void keyword(Input& in, Keyword keyword, std::string_view word, Position position);
 
   /// `if` and `elseif`: a condition and `then`.
   void conditional(Input& in, Kind kind, std::string_view word);
 
-  void else_line(Input& in, std::string_view word);
-
-  /// `do`, `do while c` and `do until c`; their `loop` decides what they are.
-  struct Do {
-    std::uint32_t statement;
-    std::size_t finding; ///< a Diagnostic
-  };
-
-  /// `loop` begins a block here and ends one elsewhere.
-  void loop_line(Input& in, std::string_view word);
-
-  /// `loop until c` and `loop while c`.
-  void last_test(Input& in, std::string_view word, std::string_view after, bool until);
-
-  /// The condition after `words` of another language, which is written after `instead` here: as it
-  /// is, or its opposite.
-  void condition(Input& in, Span words, bool as_is, std::string_view instead);
-
   void robot(Input& in, spec::Statement robot, std::string_view word, Position position);
-
   void print_line(Input& in, std::string_view word);
-
-  /// `goroll(0, 80, 1)`: a parenthesis around several values and the whole rest of the line.
-  void refuse_parentheses(const Input& in) const;
-
   void if_line(Input& in, std::string_view word, Position position);
 
   /// `end`, or `end` and what it ends.
@@ -122,45 +79,45 @@ private:
   // ---- names at the beginning of a line
 
   void named(Input& in, std::string_view name, Position position);
-
   void set_name(std::string_view name);
-
   void assignment(Input& in);
-
-  /// `n++` and `n--`, with or without a blank before the signs.
-  void step(Input& in, std::string_view name, std::string_view signs);
-
   void call(Input& in, std::string_view name, char next);
 
-  bool do_line(Input& in, std::string_view name);
+  // ---- what other languages write (structured/text/foreign.h)
 
-  /// Whether a `case` stands in the line below.
-  bool begins_cases(const Input& in) const;
+  /// A remark; `line` is where its line begins.
+  bool skip_remark(Input& in, const char* line);
 
-  /// The innermost open loop or `select`.
-  std::optional<Kind> innermost() const;
+  /// A sign at the end of a line, in place of `instead`.
+  bool skip_last(Input& in, std::string_view instead);
 
-  /// `var x = 1`, `let x = 1`, `call sub` and `dim a[3]`.
-  bool declaration(Input& in, std::string_view name, Position position);
+  /// A statement that begins with words of others: it is read as if they were ours.
+  bool foreign(Input& in, std::string_view first, Position position);
 
-  /// What a word of another language begins, where that is a sub or a function.
-  std::optional<Kind> foreign_routine(std::string_view word) const;
+  /// `break` at the end of a `case`.
+  void leave_case(Input& in, std::string_view word, Position position);
 
-  /// Whether what a `def` begins gives a value back before it ends.
-  bool gives_value(std::string_view word) const;
+  /// A `do` whose condition stands at its end is a `repeat`.
+  void end_do(const Foreign& row);
 
-  /// `procedure name` and the like.
-  bool routine_line(Input& in, std::string_view name, Kind kind, Position position);
+  /// Whether what a `def` begins gives a value back before the next one begins.
+  bool gives_value(const char* p) const;
 
-  /// Statements of other languages; what has one meaning is taken with a finding.
-  bool foreign(Input& in, std::string_view name, Position position);
+  /// Keeps which blocks are open after the statements of a line.
+  void note_blocks(std::size_t from, std::string_view line);
+
+  struct Do {
+    std::size_t statement;
+    std::size_t finding; ///< a Diagnostic
+  };
 
   Program& program_;
   Builder builder_;
   const char* begin_;
   const char* end_;
-  std::vector<Do> do_lines_; ///< without their `loop` yet
-  bool numbered_ = false;    ///< a line with a number has been seen
+  std::vector<Kind> open_; ///< the blocks, innermost last; Broken: of others, in braces
+  std::vector<Do> dos_;    ///< `do` without its `loop` yet
+  bool numbered_ = false;  ///< a line with a number has been seen
 };
 
 } // namespace orb::structured

@@ -289,8 +289,6 @@ ORB_ACTION(g::relation_tail, builder.relation(in.begin()))
 ORB_ACTION(g::not_word, builder.open_not(in.begin()))
 ORB_ACTION(g::negated, builder.close_not();
            builder.unary(NodeKind::Not, 0, builder.span(in.begin(), in.end())))
-ORB_ACTION(g::and_signs, builder.signs(in.begin(), "and"))
-ORB_ACTION(g::or_signs, builder.signs(in.begin(), "or"))
 ORB_ACTION(g::and_tail, builder.binary(NodeKind::And, 0))
 ORB_ACTION(g::or_tail, builder.binary(NodeKind::Or, 0))
 ORB_ACTION(g::expression, builder.expression(ItemKind::Expression))

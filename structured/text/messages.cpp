@@ -5,6 +5,7 @@
 #include "compiler/text/texts.h"
 #include "repair/tokens.h"
 #include "spec/limits.h"
+#include "structured/text/foreign.h"
 #include "structured/text/rules.h"
 #include "structured/text/texts.h"
 #include "structured/text/words.h"
@@ -26,9 +27,8 @@ Diagnostic malformed(const Program& program, Span found, Message problem, Messag
 
 /// What stands before a place, blanks and the ends of lines apart.
 char sign_before(std::string_view text, std::uint32_t at) {
-  while (at > 0 && (is_blank(text[at - 1]) || is_line_end(text[at - 1])))
-    --at;
-  return at == 0 ? '\n' : text[at - 1];
+  const auto last = text.substr(0, at).find_last_not_of(" \t\r\n");
+  return last == std::string_view::npos ? '\n' : text[last];
 }
 
 /// The name or word that ends before a place, blanks apart.
@@ -42,78 +42,41 @@ Span word_before(std::string_view text, std::uint32_t at) {
 }
 
 bool begins_line(std::string_view text, std::uint32_t at) {
-  while (at > 0 && is_blank(text[at - 1]))
-    --at;
-  return at == 0 || is_line_end(text[at - 1]);
+  const auto last = text.substr(0, at).find_last_not_of(" \t");
+  return last == std::string_view::npos || is_line_end(text[last]);
 }
 
 /// The word that begins the line of a place.
 std::string_view first_word(std::string_view text, std::uint32_t at) {
-  while (at > 0 && !is_line_end(text[at - 1]))
-    --at;
-  while (at < text.size() && is_blank(text[at]))
-    ++at;
-  const char* const begin = text.data() + at;
-  const char* const end = end_of_name(begin, text.data() + text.size());
-  return {begin, static_cast<std::size_t>(end - begin)};
+  text.remove_prefix(text.substr(0, at).find_last_of("\r\n") + 1);
+  text.remove_prefix(std::min(text.find_first_not_of(" \t"), text.size()));
+  const char* const end = end_of_name(text.data(), text.data() + text.size());
+  return {text.data(), static_cast<std::size_t>(end - text.data())};
 }
 
-/// What stands after a complete statement.
-Diagnostic trailing(const Program& program, Span found) {
-  const auto text = program.text_of(found);
-  const auto statement = first_word(program.text, found.begin);
-  const char before = sign_before(program.text, found.begin);
-  if (before == ',' && begins_line(program.text, found.begin))
-    return malformed(program, found, texts::CommaContinues(), texts::TrailingSpace());
-  if (text == "=" && before == ')' && find_word(statement).kind == WordKind::Name) {
-    const std::string_view all = program.text;
-    const auto end = std::min(all.find_first_of("'\r\n", found.end), all.size());
-    const auto index = all.find('(', static_cast<std::size_t>(statement.data() - all.data())) + 1;
-    return malformed(
-        program, found, texts::IndexInBrackets(),
-        texts::Write(fmt::format("{}[{}] = {}", statement,
-                                 trim(all.substr(index, all.rfind(')', found.begin) - index)),
-                                 trim(all.substr(found.end, end - found.end)))));
-  }
-  if (text == "=" && before == ']' && equal_words(statement, "array"))
-    return malformed(program, found, texts::NoInitialValues(), texts::SetEach());
-  if (text == ":")
-    return finding(rules::ForeignWord, found, texts::DoesNotSeparate(text), texts::OnePerLine());
-  if (text == "+" && before == '"')
-    return malformed(program, found, texts::NoConcatenation(), texts::PartsSideBySide());
-  if (is_digit(before) &&
-      (equal_words(text, "ms") || equal_words(text, "s") || equal_words(text, "min")))
-    return malformed(program, {word_before(program.text, found.begin).begin, found.end},
-                     texts::UnitFollows(),
-                     texts::Write(fmt::format(
-                         "{}{}", program.text_of(word_before(program.text, found.begin)), text)));
-  if (equal_words(statement, "loop"))
-    return malformed(program, found, texts::TakesNoCount("loop"), texts::RepeatCounts());
-  const auto word = find_word(statement);
-  if (word.kind == WordKind::Statement &&
-      spec::statements[word.index].form == spec::Form::Arguments && is_name_char(before) &&
-      is_digit(text.front()))
-    return malformed(program, found, texts::TextAfterStatement(), texts::SeparateValues());
-  return malformed(program, found, texts::TextAfterStatement());
-}
-
-/// A value that is missing at the end of a line shows in the next one, but is to be written there.
+/// A value that is missing at the end of a line shows in the next one, but is
+/// to be written there.
 Diagnostic missing_value(const Program& program, Span found) {
-  const std::string_view text = program.text;
-  auto end = found.begin;
-  while (end > 0 && (is_blank(text[end - 1]) || is_line_end(text[end - 1])))
-    --end;
-  if (!begins_line(text, found.begin) || end == 0 || is_name_char(text[end - 1]))
+  const auto end = program.text.find_last_not_of(" \t\r\n", found.begin - 1);
+  const char sign = sign_before(program.text, found.begin);
+  if (!begins_line(program.text, found.begin) || sign == '\n' || is_name_char(sign))
     return malformed(program, found, texts::MissingValue());
-  return finding(rules::MalformedLine, {end - 1, end}, texts::MissingValueAfter(text[end - 1]));
+  const auto at = static_cast<std::uint32_t>(end);
+  return finding(rules::MalformedLine, {at, at + 1}, texts::MissingValueAfter(sign));
 }
 
-/// Values after a name without parentheses: a statement that is misspelt, or a call.
+/// Values after a name without parentheses: a statement that is misspelt, or a
+/// call.
 Diagnostic naked_arguments(const Program& program, Span found) {
   const auto called = word_before(program.text, found.begin);
-  if (auto known = foreign(program, called, repair::Where::Line))
+  if (auto known = name_foreign(program, called, Stands::First))
     return *std::move(known);
   const auto word = std::string(program.text_of(called));
+  const auto sign = std::string_view(program.text).substr(found.begin, 2);
+  const auto behind = program.text.find_first_not_of(" \t;", found.begin + 2);
+  if (holds("++ --", sign) && is_line_end(program.text[behind]))
+    return foreign(program, {found.begin, found.begin + 2}, "C/JavaScript",
+                   fmt::format("{}= 1", sign[0]));
   if (program.text[found.begin] == '$')
     return finding(rules::MalformedLine, found, texts::NoDollar(), texts::OnlyIntegers());
   if (spec::find_operator(program.text[found.begin]))
@@ -134,7 +97,8 @@ bool assigns(std::string_view text, std::size_t at) {
   return at < text.size() && text[at] == '=';
 }
 
-/// A word of the language where the line makes sense only with a name: `heading = 90`.
+/// A word of the language where the line makes sense only with a name: `heading
+/// = 90`.
 std::optional<Span> word_for_name(const Program& program, Reason reason, Span found) {
   const std::string_view text = program.text;
   const auto kind = find_word(program.text_of(found)).kind;
@@ -158,13 +122,25 @@ bool is_foreign(char c) {
   return static_cast<unsigned char>(c) >= 0x80;
 }
 
-/// What typing and copying bring in place of `"` and of letters.
+/// What typing and copying bring in place of `"`, of blanks and of letters.
 Diagnostic foreign_character(const Program& program, Span found) {
   const std::string_view text = program.text;
   const auto sign = program.text_of(found);
   for (const std::string_view quote : {"“", "”", "„", "«", "»"})
     if (sign.starts_with(quote))
       return finding(rules::MalformedLine, found, texts::NoQuotationMark(sign), texts::UseQuotes());
+  constexpr std::pair<std::string_view, const orb::Text*> unseen[] = {
+      {"\u00A0\u202F", &texts::NoBreakSpace},
+      {"\u2002\u2003\u2009\u3000", &texts::SpecialSpace},
+      {"\u00AD\u200B\u200C\u200D\u2060\uFEFF", &texts::InvisibleCharacter}};
+  for (const auto& [signs, name] : unseen)
+    if (signs.find(sign) != std::string_view::npos) {
+      const bool blank = name != &texts::InvisibleCharacter;
+      auto d = finding(rules::MalformedLine, found, Message(*name, {}),
+                       blank ? texts::WriteBlank() : texts::RemoveIt());
+      d.fix = Fix{d.help, {{found, blank ? " " : ""}}, Safety::Safe};
+      return d;
+    }
   const auto is_part = [&](std::uint32_t at) {
     return is_name_char(text[at]) || is_foreign(text[at]);
   };
@@ -189,12 +165,6 @@ Diagnostic reserved(const Program& program, Span word) {
                  ((before == '(' || before == ',') && !declares) || !names
                      ? texts::ReservedNoValue()
                      : texts::WriteOnAll(fmt::format("my_{}", text)));
-}
-
-/// How a call of a function is written whose argument lacks its parentheses.
-Message call_of(std::string_view function, std::string_view argument) {
-  const bool known = !argument.empty() && is_name_char(argument.front());
-  return texts::WriteLike(fmt::format("{}({})", function, known ? argument : "e"));
 }
 
 /// The robot's variables that a program can set.
@@ -252,81 +222,31 @@ Diagnostic bad_number(Span found, std::string_view text) {
       texts::NumbersAre(0, spec::value_of(spec::Limit::GreatestInteger), "250ms", "1.5s", "2min"));
 }
 
-/// Values of a statement in parentheses, as other languages call their functions.
-Diagnostic parenthesised(const Program& program, Span found) {
-  const auto statement = first_word(program.text, found.begin);
-  auto d = finding(rules::MalformedLine, found, texts::NoParentheses(statement),
-                   texts::RemoveParentheses());
-  d.fix =
-      Fix{d.help,
-          {Edit{{found.begin, found.begin + 1}, is_blank(program.text[found.begin - 1]) ? "" : " "},
-           Edit{{found.end - 1, found.end}, ""}},
-          Safety::Safe};
+/// `print 'hello'`.
+Diagnostic single_quotes(const Program& program, Span found) {
+  const auto inner = program.text_of({found.begin + 1, found.end - 1});
+  auto quoted = fmt::format("\"{}\"", inner);
+  auto d = finding(rules::ForeignWord, found, texts::StartsComment(), texts::Write(quoted));
+  if (inner.find('"') == std::string_view::npos)
+    d.fix = Fix{d.help, {Edit{found, std::move(quoted)}}, Safety::Safe};
   return d;
 }
 
-/// What stands between a place and the end of its line.
-std::string_view rest_of_line(const Program& program, std::uint32_t at) {
-  const auto rest = std::string_view(program.text).substr(at);
-  return rest.substr(0, rest.find_first_of("\r\n'"));
-}
-
-/// How many values stand in the brackets or braces after a place; 0 where none do.
-std::size_t list_after(const Program& program, Span found) {
-  const auto rest = rest_of_line(program, found.end);
-  const auto begin = rest.find_first_of("[{(");
-  if (begin == std::string_view::npos)
-    return 0;
-  return static_cast<std::size_t>(std::count(rest.begin(), rest.end(), ',')) + 1;
-}
-
-/// `array a[3, 3]` and `a[1][2] = 5`: how a table is kept in an array.
-Diagnostic second_index(const Program& program, Span found) {
+/// A number in front of a line: of one line it is a slip, of several another
+/// language.
+Diagnostic line_number(const Program& program, Span found) {
   const std::string_view text = program.text;
-  const auto bracket = static_cast<std::uint32_t>(text.substr(0, found.begin).find_last_of('['));
-  const auto name = program.text_of(word_before(text, bracket));
-  const auto sizes = rest_of_line(program, bracket);
-  const auto size_at = [&](std::size_t at) {
-    at = std::min(sizes.find_first_not_of("[], ", at), sizes.size());
-    const auto digits = sizes.substr(at, sizes.find_first_of("], ", at) - at);
-    return parse_number<std::int32_t>(digits).value_or(0);
-  };
-  const auto rows = size_at(0);
-  const auto columns = size_at(found.begin - bracket);
-  const bool declared =
-      equal_words(first_word(text, found.begin), "array") && rows > 0 && columns > 0 &&
-      std::int64_t{rows} * columns <= spec::value_of(spec::Limit::IndexedVariables);
-  return malformed(program, found, texts::OneIndex(),
-                   declared ? texts::TableOf(name, rows * columns, columns)
-                            : texts::TableOfThree(name));
-}
-
-} // namespace
-
-/// `4.times`: no line number.
-bool goes_on_as_word(const Program& program, Span number) {
-  const std::string_view text = program.text;
-  return number.end < text.size() && text[number.end] == '.';
-}
-
-/// A number in front of a line: of a few lines it is a slip, of all another language.
-Diagnostic numbered_line(const Program& program, Span found) {
+  const auto number = program.text_of(found);
+  if (!std::all_of(number.begin(), number.end(), is_digit) ||
+      text.substr(found.end).starts_with('.')) // `4.times`
+    return finding(rules::MalformedLine, found, texts::NoStatementBegins(number));
   auto d =
       finding(rules::NumberedLine, found, texts::NoLineNumbers(), texts::TurnsNumbered("orb lift"));
-  const std::string_view text = program.text;
-  std::size_t numbered = 0;
-  std::size_t all = 0;
-  for (std::size_t at = 0; at < text.size(); ++all) {
-    const auto begin = std::min(text.find_first_not_of(" \t\r\n", at), text.size());
-    numbered += begin < text.size() && is_digit(text[begin]) ? 1 : 0;
-    at = std::min(text.find('\n', begin), text.size() - 1) + 1;
-    if (begin == text.size())
-      break;
-  }
   const auto after = text.find_first_not_of(" \t", found.end);
-  if (numbered * 2 > all || after == std::string_view::npos)
+  const auto end = std::min(text.find_first_of("\r\n", found.end), text.size());
+  const auto below = std::min(text.find_first_not_of(" \t\r\n", end), text.size() - 1);
+  if (is_digit(text[below]) || after >= end)
     return d;
-  const auto end = std::min(text.find_first_of("\r\n", after), text.size());
   d.help = texts::Write(text.substr(after, end - after));
   d.fix = Fix{compiler::texts::RemoveNumber(),
               {{{found.begin, static_cast<std::uint32_t>(after)}, {}}},
@@ -334,96 +254,124 @@ Diagnostic numbered_line(const Program& program, Span found) {
   return d;
 }
 
+// clang-format off
+
+/// Why a line does not parse, by what stands where that shows. The first row
+/// that fits counts; what is empty fits anything.
+struct Cause {
+  Reason reason;
+  std::string_view found; ///< any of these
+  std::string_view first; ///< the word that begins the line; `1`: a statement with values
+  const Rule* rule;
+  const orb::Text* text;
+  std::string_view filler = {}; ///< of its hole; empty: what was found, `1`: the first word, `0`: that before
+  const orb::Text* help = nullptr;
+};
+
+using enum Reason;
+constexpr const Rule* malformed_line = &rules::MalformedLine;
+constexpr auto causes = std::to_array<Cause>({
+    {Trailing, "=", "array", malformed_line, &texts::NoInitialValues, {}, &texts::SetEach},
+    {Trailing, "+", "print", malformed_line, &texts::NoConcatenation, {}, &texts::PartsSideBySide},
+    {Trailing, ":", "", &rules::ForeignWord, &texts::DoesNotSeparate, {}, &texts::OnePerLine},
+    {Trailing, "ms s min", "", malformed_line, &texts::UnitFollows},
+    {Trailing, "", "loop", malformed_line, &texts::TakesNoCount, "loop", &texts::RepeatCounts},
+    {Trailing, "", "1", malformed_line, &texts::EndsBefore, {}, &texts::SeparateValues},
+    {Trailing, "", "", malformed_line, &texts::EndsBefore},
+    {ExpectedStatement, "", "", malformed_line, &texts::MissingStatement},
+    {ExpectedExpression, "#", "", malformed_line, &texts::ColourNoValue, {}, &texts::ColourAfterRgb},
+    {ExpectedPlace, "(", "for", &rules::ForeignWord, &texts::ForCounts},
+    {ExpectedPlace, "", "", malformed_line, &texts::MissingPlace},
+    {ExpectedName, "", "", malformed_line, &texts::MissingName},
+    {ExpectedEquals, "", "for", &rules::ForeignWord, &texts::ForCounts},
+    {ExpectedEquals, "", "", malformed_line, &texts::Missing, "="},
+    {ExpectedThen, "", "", malformed_line, &texts::Missing, "then", &texts::ThenOnItsOwn},
+    {ExpectedTo, "", "", malformed_line, &texts::Missing, "to"},
+    {ExpectedComma, "", "", malformed_line, &texts::TooFewValues},
+    {ExpectedBracket, "( =", "", malformed_line, &texts::MissingBracket, {}, &texts::SizeInBrackets},
+    {ExpectedBracket, "", "", malformed_line, &texts::MissingBracket},
+    {ExpectedParenthesis, ",", "1", malformed_line, &texts::NoParentheses, "1", &texts::RemoveParentheses},
+    {ExpectedParenthesis, "", "", malformed_line, &texts::MissingParenthesis},
+    {ExpectedOperand, "", "", malformed_line, &texts::ArgumentInParentheses, "0"},
+    {ExpectedOne, "", "", &rules::ArgumentCount, &texts::TakesOneValue},
+    {ExpectedTwo, "", "", &rules::ArgumentCount, &texts::TakesTwoValues},
+    {ExpectedQuote, "", "", malformed_line, &compiler::texts::UnterminatedString},
+    {ExpectedFile, "", "", malformed_line, &texts::MissingPath},
+    {NotAStatement, "", "", malformed_line, &texts::NoStatementBegins},
+    {TooManyArguments, "", "", &rules::ArgumentCount, &texts::TooManyValues},
+    {FractionOfMillisecond, "", "", &rules::BadNumber, &texts::NoWholeMilliseconds},
+    {TooDeep, "", "", &rules::NestingDepth, &texts::BracketsTooDeep, {}, &compiler::texts::ComputeSeparately},
+    {NestedIf, "", "", &rules::MisplacedStatement, &texts::IfInOneLine, {}, &texts::InnerIfBelow},
+    {BlockInOneLine, "", "", &rules::MisplacedStatement, &texts::NotInOneLine, {}, &texts::StatementBelow},
+    {Gosub, "", "", &rules::ForeignWord, &compiler::texts::ThereIsNo, {}, &texts::SubInstead},
+    {On, "", "", &rules::ForeignWord, &compiler::texts::ThereIsNo, {}, &texts::SelectInstead},
+    {SecondIndex, "", "", malformed_line, &texts::OneIndex, {}, &texts::TableOf},
+});
+
+// clang-format on
+
+/// What a row says of a line; nothing where none fits.
+std::optional<Diagnostic> cause_of(const Program& program, Reason reason, Span found) {
+  const auto text = program.text_of(found);
+  const auto first = first_word(program.text, found.begin);
+  const auto word = find_word(first);
+  const bool values = word.kind == WordKind::Statement &&
+                      spec::statements[word.index].form == spec::Form::Arguments;
+  const auto* const row = std::find_if(causes.begin(), causes.end(), [&](const Cause& one) {
+    return one.reason == reason && (one.found.empty() || holds(one.found, text)) &&
+           (one.first.empty() || (one.first == "1" ? values : equal_words(one.first, first)));
+  });
+  if (row == causes.end())
+    return std::nullopt;
+  const auto filler = row->filler == "1"   ? first
+                      : row->filler == "0" ? program.text_of(word_before(program.text, found.begin))
+                      : row->filler.empty() ? text
+                                            : row->filler;
+  const bool filled = row->text->english.find('{') != std::string_view::npos;
+  Message said(*row->text,
+               std::vector<Message>(filled ? 1 : 0, Message::as_is(std::string(filler))));
+  const auto help = row->help == nullptr ? Message() : Message(*row->help, {});
+  return row->text->english.starts_with("missing")
+             ? malformed(program, found, std::move(said), help)
+             : finding(*row->rule, found, std::move(said), help);
+}
+
+} // namespace
+
 Diagnostic explain(const Program& program, Reason reason, Span found) {
   const auto text = std::string(program.text_of(found));
   if (!text.empty() && is_foreign(text.front()))
     return foreign_character(program, found);
-  if (reason == Reason::ExpectedExpression && text == "#")
-    return malformed(program, found, texts::ColourNoValue(), texts::ColourAfterRgb());
-  const bool other_expected = reason <= Reason::ExpectedParenthesis;
-  if (other_expected || reason == Reason::NotAStatement)
-    if (auto known = foreign(program, found, repair::Where::Inside))
+  if (reason <= ExpectedParenthesis || reason == NotAStatement)
+    if (auto known = name_foreign(program, found, Stands::Inside))
       return *std::move(known);
   if (const auto word = word_for_name(program, reason, found))
     return reserved(program, *word);
-  switch (reason) {
-  case Reason::Trailing: return trailing(program, found);
-  case Reason::ExpectedStatement: return malformed(program, found, texts::MissingStatement());
-  case Reason::ExpectedExpression:
-    if (text.starts_with('"'))
-      return malformed(program, found, texts::StringNoValue(),
-                       texts::StringsOnlyIn("print", "print \"hello\""));
-    return missing_value(program, found);
-  case Reason::ExpectedPlace:
-    return malformed(program, found, texts::Expected(texts::APlace()),
-                     text == "(" && equal_words(first_word(program.text, found.begin), "for")
-                         ? texts::WriteBlock("for n = 1 to 4", "next n")
-                         : Message());
-  case Reason::ExpectedName: return malformed(program, found, texts::Expected(texts::AName()));
-  case Reason::ExpectedEquals:
-    return malformed(program, found, texts::Missing("="),
-                     equal_words(first_word(program.text, found.begin), "for")
-                         ? texts::Write("for n = 1 to 4")
-                         : Message());
-  case Reason::ExpectedThen:
-    return malformed(program, found, texts::Missing("then"), texts::ThenOnItsOwn());
-  case Reason::ExpectedTo: return malformed(program, found, texts::Missing("to"));
-  case Reason::ExpectedComma: return malformed(program, found, texts::TooFewValues());
-  case Reason::ExpectedBracket:
-    return malformed(program, found, texts::MissingBracket(),
-                     text == "(" ? texts::SizeInBrackets()
-                     : text == "=" && list_after(program, found) > 0
-                         ? texts::SetEachOf(program.text_of(word_before(program.text, found.begin)),
-                                            list_after(program, found))
-                     : equal_words(first_word(program.text, found.begin), "dim")
-                         ? texts::NoDeclaration()
-                         : Message());
-  case Reason::ExpectedParenthesis: return malformed(program, found, texts::MissingParenthesis());
-  case Reason::ExpectedOperand:
-    return malformed(program, found, texts::ArgumentInParentheses(),
-                     call_of(program.text_of(word_before(program.text, found.begin)), text));
-  case Reason::ExpectedOne:
-    return finding(rules::ArgumentCount, found, texts::TakesOneValue(text),
-                   texts::WriteLike(text + "(e)"));
-  case Reason::ExpectedTwo:
-    return finding(rules::ArgumentCount, found, texts::TakesTwoValues(text),
-                   texts::WriteLike(text + "(a, b)"));
-  case Reason::ExpectedQuote:
-    return finding(rules::MalformedLine, found, compiler::texts::UnterminatedString());
-  case Reason::ExpectedFile: return malformed(program, found, texts::Expected(texts::AFile()));
-  case Reason::NotAStatement: return finding(rules::MalformedLine, found, texts::Unexpected(text));
-  case Reason::NakedArguments: return naked_arguments(program, found);
-  case Reason::TooManyArguments:
-    return finding(rules::ArgumentCount, found, texts::TooManyValues());
-  case Reason::ReadOnly: return read_only(program, found);
-  case Reason::Reserved: return reserved(program, found);
-  case Reason::NameTooLong:
+  const auto first = first_word(program.text, found.begin);
+  const char before = sign_before(program.text, found.begin);
+  if (reason == Trailing && before == ',' && begins_line(program.text, found.begin))
+    return malformed(program, found, texts::CommaContinues(), texts::TrailingSpace());
+  if (reason == Trailing && text == "=" && before == ')' && find_word(first).kind == WordKind::Name)
+    return malformed(program, found, texts::IndexInBrackets());
+  if (auto known = cause_of(program, reason, found))
+    return *std::move(known);
+  if (reason == ExpectedExpression && text.starts_with('"'))
+    return !equal_words(first, "print")
+               ? finding(rules::MalformedLine, found, texts::OnlyPrinted(text),
+                         texts::StringsOnlyIn("print", "print \"hello\""))
+           : before == '(' ? finding(rules::MalformedLine, found, texts::NoParentheses(first),
+                                     texts::WriteLike("print \"hello\""))
+                           : finding(rules::MalformedLine, found, texts::NoConcatenation(),
+                                     texts::PartsSideBySide());
+  if (reason == NameTooLong)
     return finding(rules::ReservedName, found, texts::NameTooLong(found.size(), longest_name));
-  case Reason::BadNumber: return bad_number(found, text);
-  case Reason::FractionOfMillisecond:
-    return finding(rules::BadNumber, found, texts::NoWholeMilliseconds(text));
-  case Reason::TooDeep:
-    return finding(rules::NestingDepth, found, texts::BracketsTooDeep(),
-                   compiler::texts::ComputeSeparately());
-  case Reason::NestedIf:
-    return finding(rules::MisplacedStatement, found, texts::IfInOneLine(), texts::InnerIfBelow());
-  case Reason::BlockInOneLine:
-    return finding(rules::MisplacedStatement, found, texts::NotInOneLine(text),
-                   texts::StatementBelow());
-  case Reason::LineNumber:
-    return std::all_of(text.begin(), text.end(), is_digit) && !goes_on_as_word(program, found)
-               ? numbered_line(program, found)
-               : finding(rules::MalformedLine, found, texts::Unexpected(text));
-  case Reason::Gosub:
-    return finding(rules::ForeignWord, found, compiler::texts::ThereIsNo("gosub"),
-                   texts::SubInstead());
-  case Reason::On:
-    return finding(rules::ForeignWord, found, compiler::texts::ThereIsNo("on"),
-                   texts::SelectInstead());
-  case Reason::Parenthesised: return parenthesised(program, found);
-  case Reason::SecondIndex: return second_index(program, found);
-  }
-  return finding(rules::MalformedLine, found, texts::SyntaxError());
+  return reason == NakedArguments ? naked_arguments(program, found)
+         : reason == ReadOnly     ? read_only(program, found)
+         : reason == Reserved     ? reserved(program, found)
+         : reason == BadNumber    ? bad_number(found, text)
+         : reason == LineNumber   ? line_number(program, found)
+         : reason == SingleQuotes ? single_quotes(program, found)
+                                  : missing_value(program, found);
 }
 
 } // namespace orb::structured

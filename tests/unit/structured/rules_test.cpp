@@ -74,6 +74,14 @@ TEST(Habits, OfOtherLanguagesAreRewritten) {
       {"sub a\n  print 1\nend sub\ncall a\n", "sub a\n  print 1\nend sub\na()\n"},
       {"dim a[3]\na[1] = 2\nprint a[1]\n", "array a[3]\na[1] = 2\nprint a[1]\n"},
       {"rem hello\nprint 1\n", "' hello\nprint 1\n"},
+      {"x = 1\nswitch (x) {\n  case 1:\n    print 1;\n    break;\n  default:\n    print 2\n}\n",
+       "x = 1\nselect x\n  case 1\n    print 1;\n  else\n    print 2\nend select\n"},
+      {"do\n  delay 9\nloop until yaw > 9 and speed > 1\n",
+       "repeat\n  delay 9\nuntil yaw > 9 and speed > 1\n"},
+      {"do until yaw > 9 and speed > 1\n  delay 9\nloop\n",
+       "while not (yaw > 9 and speed > 1)\n  delay 9\nend while\n"},
+      {"def f(a)\n  return a * 2\nend def\nprint f(3)\n",
+       "function f(a)\n  return a * 2\nend function\nprint f(3)\n"},
   };
   for (const auto& [foreign, own] : habits) {
     EXPECT_TRUE(compile_text(foreign).has_errors()) << foreign;
