@@ -5,6 +5,7 @@
 #include "compiler/text/parse.h"
 #include "compiler/text/rules.h"
 #include "compiler/text/texts.h"
+#include "repair/idioms.h"
 #include "repair/repair.h"
 #include "spec/basic.h"
 #include "spec/limits.h"
@@ -78,9 +79,8 @@ Checked read(std::string_view text) {
   }
   checked.program = parse(text);
   if (!holds_program(checked.program))
-    checked.diagnostics.push_back(
-        finding(rules::EmptyProgram, {0, 0}, texts::NoProgramLines(),
-                texts::ALineIs("10 print \"hello\"")));
+    checked.diagnostics.push_back(finding(rules::EmptyProgram, {0, 0}, texts::NoProgramLines(),
+                                          texts::ALineIs("10 print \"hello\"")));
   return checked;
 }
 
@@ -88,6 +88,7 @@ std::vector<Diagnostic> check(const Program& program, const Target& target) {
   auto findings = lint(program, target);
   if (any_error(findings))
     offer_lines(program, target, findings);
+  repair::say_foreign(program.text, repair::Language::Basic, findings);
   say_lines(program.text, findings);
   return findings;
 }
