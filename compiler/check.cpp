@@ -6,7 +6,7 @@
 #include "compiler/text/rules.h"
 #include "compiler/text/texts.h"
 #include "repair/idioms.h"
-#include "repair/repair.h"
+#include "repair/program_names.h"
 #include "spec/basic.h"
 #include "spec/limits.h"
 
@@ -56,7 +56,7 @@ void offer_lines(const Program& program, const Target& target, std::vector<Diagn
   judge.words = all_words();
   judge.parses = [](std::string_view line) { return parse(line).faults.empty(); };
   judge.check = [&target](std::string_view text) { return lint(parse(text), target); };
-  repair::offer_lines(program.text, judge, findings);
+  repair::offer_program(program.text, judge, findings);
 }
 
 } // namespace

@@ -264,15 +264,16 @@ std::optional<Foreign> find_foreign(std::string_view text, Language language,
                                       : texts::IsWhose(word, row.language, std::move(what))};
 }
 
-/// Whether a line sets a variable of that name: then it is the program's own.
-bool sets_word(const Source& source, std::string_view word, Language language) {
+/// Whether a line sets a variable of that name, or jumps there: then it is the program's own.
+bool is_own_word(const Source& source, std::string_view word, Language language) {
   for (std::uint32_t n = 1; !word.empty() && n <= source.line_count(); ++n) {
     const auto line = source.line(n);
     if (line.find(word) == std::string_view::npos)
       continue;
     const auto tokens = split(line, language).tokens;
     for (std::size_t i = 0; i + 1 < tokens.size(); ++i)
-      if (equal_words(tokens[i].text, word) && tokens[i + 1].is("="))
+      if ((equal_words(tokens[i].text, word) && tokens[i + 1].is("=")) ||
+          (equal_words(tokens[i + 1].text, word) && holds("goto gosub", tokens[i].text)))
         return true;
   }
   return false;
@@ -509,7 +510,7 @@ void say_foreign(std::string_view text, Language language, std::vector<Diagnosti
     const auto found = n != 0 && lines.insert(n).second
                            ? find_foreign(source.line(n), language, patterns)
                            : std::nullopt;
-    if (!found || sets_word(source, found->word, language))
+    if (!found || is_own_word(source, found->word, language))
       continue;
     finding.span = {source.line_start(n) + found->span.begin,
                     source.line_start(n) + found->span.end};
