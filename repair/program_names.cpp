@@ -253,9 +253,13 @@ std::string only_subroutine(const Program& program) {
 Proposals numbers_for_jumps(const Program& program, const Proposals& labels) {
   Proposals all;
   const auto only = only_subroutine(program);
+  std::map<std::string, std::string> numbers;
   for (const auto& jump : named_jumps(program)) {
     const auto span = program.span(jump.line, *jump.name, *jump.name);
-    const auto own = program.scenery.number_of(jump.name->text);
+    const auto known = numbers.try_emplace(jump.name->text);
+    if (known.second)
+      known.first->second = program.scenery.number_of(jump.name->text);
+    const auto& own = known.first->second;
     const auto& to = own.empty() && jump.calls ? only : own;
     const bool done = std::any_of(labels.begin(), labels.end(), [&](const Proposal& label) {
       return std::any_of(label.fix.edits.begin(), label.fix.edits.end(),
