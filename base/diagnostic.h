@@ -69,6 +69,19 @@ struct Fix {
   Safety safety = Safety::Safe;
 };
 
+/// A line that was checked as the line to write.
+struct Considered {
+  enum class Verdict : std::uint8_t {
+    Worse,  ///< the line, or others, would have errors
+    Parses, ///< as many errors remain as before
+    Mends,  ///< fewer errors remain
+  };
+  std::string line;
+  std::string_view origin; ///< the step that proposed it
+  int cost = 0;            ///< the cheapest comes first
+  Verdict verdict = Verdict::Worse;
+};
+
 struct Note {
   Span span;
   Message message;
@@ -83,6 +96,7 @@ struct Diagnostic {
   Message help;    ///< what helps; may be empty
   std::vector<Note> notes;
   std::optional<Fix> fix;
+  std::vector<Considered> considered;      ///< what was tried for the line to write, in order
   std::optional<std::uint32_t> basic_line; ///< the orbBasic line number, where there is one
 };
 

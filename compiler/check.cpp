@@ -16,8 +16,6 @@
 namespace orb::compiler {
 namespace {
 
-static_assert(repair::greatest_line_number == spec::value_of(spec::Limit::GreatestLineNumber));
-
 /// A NUL that is not at the end, or more control characters than any text has.
 bool is_binary(std::string_view text) {
   const auto last = text.find_last_not_of('\0');

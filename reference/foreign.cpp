@@ -24,7 +24,7 @@ constexpr std::string_view calls[] = {"{}(90)", "{}(0, 80, 2)", "{}(255, 0, 0)",
                                       "{}(90, 2)"};
 
 /// Whether a rewrite says something else, not the same word or its parentheses left over.
-bool is_answer(const repair::Tokens& line, const repair::Rewritten& one, Language language) {
+bool is_answer(const repair::Tokens& line, const repair::Candidate& one, Language language) {
   const auto tokens = repair::tokens_of(one.text, language);
   return std::none_of(tokens.begin(), tokens.end(), [&](const repair::Token& token) {
     return token.is("(") || equal_words(token.text, line.front().text);
@@ -32,14 +32,14 @@ bool is_answer(const repair::Tokens& line, const repair::Rewritten& one, Languag
 }
 
 /// What the first pattern that knows `line` makes of it.
-std::optional<repair::Rewritten> here(std::string_view line, Language language) {
+std::optional<repair::Candidate> here(std::string_view line, Language language) {
   const auto tokens = repair::tokens_of(line, language);
   if (tokens.empty() || !tokens.front().is_word())
     return std::nullopt;
   repair::Surroundings around;
   around.language = language;
-  std::optional<repair::Rewritten> found;
-  repair::rewrite(tokens, around, [&](const repair::Rewritten& one) {
+  std::optional<repair::Candidate> found;
+  repair::rewrite(tokens, around, [&](const repair::Candidate& one) {
     if (!is_answer(tokens, one, language))
       return false;
     found = one;
@@ -70,8 +70,8 @@ std::optional<Entry> explain_line(std::string_view line) {
   for (const auto& way : ways)
     if (const auto found = here(line, way.language)) {
       entry.facts.emplace_back(way.name, beside(found->text));
-      if (found->note != nullptr)
-        entry.summary = in_english({*found->note, {}});
+      if (found->why != nullptr)
+        entry.summary = in_english({*found->why, {}});
     } else if (auto advice = advise(line, way.language); !advice.empty()) {
       entry.facts.emplace_back(way.name, std::move(advice));
     }

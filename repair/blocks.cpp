@@ -152,7 +152,7 @@ private:
     around.language = Language::Structured;
     std::unordered_set<std::string> seen;
     Rewrites rewrites;
-    explore(join(tokens), around, {3, block_states}, seen, rewrites, [&](const Rewritten& one) {
+    explore(join(tokens), around, {3, block_states}, seen, rewrites, [&](const Candidate& one) {
       return take_role(line, tokens_of(one.text, Language::Structured));
     });
     if (begins(tokens, "do") && (line.role == Role::Loop || line.role == Role::While))
@@ -374,7 +374,7 @@ private:
     around.language = Language::Basic;
     std::unordered_set<std::string> seen;
     Rewrites rewrites;
-    explore(text, around, {4, block_states}, seen, rewrites, [&](const Rewritten& one) {
+    explore(text, around, {4, block_states}, seen, rewrites, [&](const Candidate& one) {
       if (parses_("1 " + one.text))
         known = one.text;
       return known.has_value();

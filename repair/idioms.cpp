@@ -234,7 +234,7 @@ std::optional<Foreign> find_foreign(std::string_view text, Language language,
   const auto tokens = split(text, language).tokens;
   if (tokens.size() > most_tokens)
     return std::nullopt;
-  const Line line(tokens);
+  const MatchedLine line(tokens);
   Matcher matcher(line, tokens.size(), false);
   std::size_t begin = tokens.size();
   std::size_t end = 0;
@@ -370,7 +370,7 @@ bool fits(const orb::Text* note, std::string_view form) {
 } // namespace
 
 void rewrite(const Tokens& line, const Surroundings& around,
-             const std::function<bool(const Rewritten&)>& take) {
+             const std::function<bool(const Candidate&)>& take) {
   std::uint64_t bits = 0;
   std::vector<std::uint64_t> bit(line.size());
   for (std::size_t i = 0; i < line.size(); ++i) {
@@ -378,7 +378,7 @@ void rewrite(const Tokens& line, const Surroundings& around,
     bits |= bit[i];
   }
   const auto here = join(line);
-  const Line all(line);
+  const MatchedLine all(line);
   const auto statements = statements_of(line);
   const auto& patterns = patterns_of(around.language);
   for (const auto each : patterns.possible(line)) {
@@ -401,7 +401,7 @@ void rewrite(const Tokens& line, const Surroundings& around,
           replaced(line, begin, end, inside ? as_operand(line, begin, end, *filled) : *filled);
       const auto* note = pattern.idiom == nullptr ? nullptr : pattern.idiom->note;
       return text != here &&
-             take({std::move(text), fits(note, form) ? note : nullptr, is_sure(form, holes)});
+             take({std::move(text), 10, fits(note, form) ? note : nullptr, is_sure(form, holes)});
     };
     const auto begins = [&](std::size_t i) {
       return pattern.first == 0 || (pattern.first & bit[i]) != 0;
@@ -426,12 +426,12 @@ void rewrite(const Tokens& line, const Surroundings& around,
 
 void explore(const std::string& line, const Surroundings& around, Bounds bounds,
              std::unordered_set<std::string>& seen, Rewrites& known,
-             const std::function<bool(const Rewritten&)>& take) {
+             const std::function<bool(const Candidate&)>& take) {
   std::vector<std::pair<std::string, int>> open{{line, 0}};
   for (std::size_t next = 0; next < open.size(); ++next) {
     const auto [text, depth] = open[next];
     bool done = false;
-    const auto look = [&, depth = depth](const Rewritten& one) {
+    const auto look = [&, depth = depth](const Candidate& one) {
       if (!seen.insert(one.text).second)
         return false;
       if (take(one))
@@ -443,9 +443,9 @@ void explore(const std::string& line, const Surroundings& around, Bounds bounds,
     if (const auto told = known.find(text); told != known.end()) {
       std::any_of(told->second.begin(), told->second.end(), look);
     } else if (const auto tokens = tokens_of(text, around.language); tokens.size() <= most_tokens) {
-      std::vector<Rewritten> all;
+      std::vector<Candidate> all;
       bool whole = true;
-      rewrite(tokens, around, [&](const Rewritten& one) {
+      rewrite(tokens, around, [&](const Candidate& one) {
         all.push_back(one);
         whole = !look(one);
         return !whole;
@@ -459,7 +459,7 @@ void explore(const std::string& line, const Surroundings& around, Bounds bounds,
 }
 
 std::string word_at(const Tokens& line, std::size_t at) {
-  const Line all(line);
+  const MatchedLine all(line);
   Matcher matcher(all, line.size(), false);
   std::size_t farthest = at;
   std::string_view meaning = line[at].text;
@@ -526,7 +526,7 @@ Message advise(const Tokens& line, const Surroundings& around) {
   if (line.empty() ||
       (around.language != Language::Basic && around.language != Language::Structured))
     return {};
-  const Line all(line);
+  const MatchedLine all(line);
   for (const auto& [text, patterns] : around.language == Language::Basic ? basic : structured)
     for (const auto& pattern : patterns) {
       Matcher matcher(all, line.size(), true);

@@ -2,6 +2,7 @@
 
 #include "base/diagnostic.h"
 #include "base/message.h"
+#include "repair/candidate.h"
 #include "repair/tokens.h"
 
 #include <cstddef>
@@ -66,20 +67,13 @@ struct Hint {
   std::string_view structured; ///< the same
 };
 
-/// A line after one row was applied to it.
-struct Rewritten {
-  std::string text;                ///< no number in front, no comment behind
-  const orb::Text* note = nullptr; ///< why it is so; null where nothing is said
-  bool sure = true;                ///< nothing else can have been meant
-};
-
 /// The words of the languages that people speak, as far as they stand for one of a program.
 std::vector<std::string_view> spoken_words();
 
 /// Calls `take` with what each row that fits makes of a line, in the order of the table, until it
 /// returns true.
 void rewrite(const Tokens& line, const Surroundings& around,
-             const std::function<bool(const Rewritten&)>& take);
+             const std::function<bool(const Candidate&)>& take);
 
 struct Bounds {
   int deepest = 0; ///< rows that are applied after each other
@@ -87,14 +81,14 @@ struct Bounds {
 };
 
 /// What the rows make of lines that have been looked at to the end, within the same surroundings.
-using Rewrites = std::unordered_map<std::string, std::vector<Rewritten>>;
+using Rewrites = std::unordered_map<std::string, std::vector<Candidate>>;
 
 /// Calls `take` with what the rows make of a line, one alone first, then two after each other, and
 /// so on, until it returns true. What is in `seen` is not looked at again; what is in `known` need
 /// not be computed, and what is looked at to the end is kept there.
 void explore(const std::string& line, const Surroundings& around, Bounds bounds,
              std::unordered_set<std::string>& seen, Rewrites& known,
-             const std::function<bool(const Rewritten&)>& take);
+             const std::function<bool(const Candidate&)>& take);
 
 /// The word that a line has at a place, as structured programs have it: `wenn` is `if`.
 std::string word_at(const Tokens& line, std::size_t at);

@@ -41,8 +41,8 @@ inline bool parts_line(const Token& token) {
 }
 
 /// What all patterns ask of the tokens of a line, told once.
-struct Line {
-  explicit Line(const Tokens& given) : tokens(given), depth{0} {
+struct MatchedLine {
+  explicit MatchedLine(const Tokens& given) : tokens(given), depth{0} {
     for (const auto& token : tokens) {
       const int step = token.is("(") || token.is("[") ? 1 : token.is(")") || token.is("]") ? -1 : 0;
       depth.push_back(depth.back() + step);
@@ -64,7 +64,7 @@ struct Line {
 /// Lays a pattern over the tokens of a line.
 class Matcher {
 public:
-  Matcher(const Line& line, std::size_t end, bool whole)
+  Matcher(const MatchedLine& line, std::size_t end, bool whole)
       : line_(line), tokens_(line.tokens), end_(end), whole_(whole) {}
 
   /// Where the pattern ends that begins at `at`; 0 where it does not fit.
@@ -230,7 +230,7 @@ private:
     return at == end || (at + 1 == end && tokens_[at].is_word());
   }
 
-  const Line& line_;
+  const MatchedLine& line_;
   const Tokens& tokens_;
   std::size_t end_;
   bool whole_;

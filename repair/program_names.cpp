@@ -3,7 +3,7 @@
 #include "base/fixes.h"
 #include "base/text/text.h"
 #include "repair/idioms.h"
-#include "repair/line_repair.h"
+#include "repair/line.h"
 #include "repair/scenery.h"
 #include "repair/texts.h"
 #include "spec/basic.h"
@@ -20,7 +20,7 @@ namespace orb::repair {
 namespace {
 
 struct Program {
-  Program(std::string_view text, const Judge& its_judge)
+  Program(std::string_view text, const Dialect& its_judge)
       : source({}, std::string(text)), judge(its_judge), scenery(source, Language::Basic) {
     for (std::uint32_t n = 1; n <= source.line_count(); ++n)
       lines.push_back(split(source.line(n).substr(0, longest_line), Language::Basic));
@@ -32,7 +32,7 @@ struct Program {
   }
 
   Source source;
-  const Judge& judge;
+  const Dialect& judge;
   Scenery scenery;
   std::vector<SplitLine> lines; ///< line 1 first
 };
@@ -441,7 +441,7 @@ void take_over(const Program& program, const Proposals& all, const Program& then
 
 } // namespace
 
-void offer_program(std::string_view text, const Judge& judge, std::vector<Diagnostic>& findings) {
+void offer_program(std::string_view text, const Dialect& judge, std::vector<Diagnostic>& findings) {
   const Program program(text, judge);
   auto all = letters_for_names(program);
   const auto labels = numbers_for_labels(program);

@@ -4,8 +4,9 @@
 #include "base/text/text.h"
 #include "repair/blocks.h"
 #include "repair/fill.h"
-#include "repair/line_repair.h"
+#include "repair/normalise.h"
 #include "repair/texts.h"
+#include "repair/trial.h"
 
 #include <algorithm>
 #include <array>
@@ -442,33 +443,25 @@ private:
     }
     auto at = line_of(finding);
     const bool here = is_about_writing(finding, source_, judge_, at);
-    Context context;
-    std::optional<LineRepair> repair;
-    const auto found_at = [&] {
-      context = around(at);
-      repair.emplace(source_, judge_, scenery_, at, context, before(at, context), checks_left());
-      auto all = repair->find(finding);
-      checks_ += repair->checks();
-      return all;
-    };
-    auto found = here ? found_at() : std::vector<Accepted>();
+    auto line = read(at);
+    auto found = here ? mend(line, finding) : std::vector<Accepted>();
     if (found.empty() && continues(at) && lines_.insert(at - 1).second) {
-      --at;
-      found = found_at();
+      line = read(--at);
+      found = mend(line, finding);
       if (!found.empty())
         finding.span = source_.line_span(at);
     }
     if (!found.empty()) {
-      write(finding, *repair, at, found);
+      write(finding, line, at, found);
       mended_.insert(&finding);
       if ((found.size() == 1 || judge_.language == Language::Test) &&
           (found[0].fewer || found[0].open))
         texts_[at] = found[0].text;
-    } else if (repair && finding.fix && says_line(finding.help) && !mends(finding)) {
+    } else if (here && finding.fix && says_line(finding.help) && !mends(finding)) {
       finding.help = {}; // one error would only take the place of another
       finding.fix.reset();
-    } else if (repair && says_little(finding)) {
-      if (auto advice = repair->advice(); !advice.empty())
+    } else if (here && says_little(finding)) {
+      if (auto advice = advise(line.tokens, line.around); !advice.empty())
         finding.help = std::move(advice);
     }
   }
@@ -513,17 +506,14 @@ private:
       const auto at = line_of(first);
       if (!is_about_writing(first, source_, judge_, at))
         continue;
-      const auto context = around(at);
-      const auto before =
-          findings_about(context.above + std::string(source_.line(at)) + context.below);
-      LineRepair repair(source_, judge_, scenery_, at, context, before, checks_left());
-      const auto found = repair.find(first);
-      checks_ += repair.checks();
+      auto line = read(at);
+      auto again = first;
+      const auto found = mend(line, again);
       if (found.size() != 1 || !(found[0].fewer || found[0].open) ||
           (texts_.contains(at) && texts_[at] == found[0].text))
         continue;
-      **finding = first;
-      write(**finding, repair, at, found);
+      **finding = again;
+      write(**finding, line, at, found);
       mended_.insert(*finding);
       texts_[at] = found[0].text;
     }
@@ -561,6 +551,26 @@ private:
     return text;
   }
   std::string whole_text() const { return lines(1, source_.line_count() + 1); }
+
+  /// A line as it is read.
+  Line read(std::uint32_t at) const {
+    auto line = look_at(source_, judge_, scenery_, at);
+    normalise(line);
+    return line;
+  }
+
+  /// The lines to write for one, the best first; keeps in the finding what was checked.
+  std::vector<Accepted> mend(Line& line, Diagnostic& finding) {
+    line.misplaced = finding.rule->trouble == Trouble::MisplacedStatement;
+    const auto at = source_.position(line.begin).line;
+    const auto context = around(at);
+    const auto budget = checks_left();
+    Trial trial(line, finding, context, before(at, context), budget);
+    auto all = repair::mend(trial);
+    checks_ += budget - trial.left();
+    finding.considered = std::move(trial.considered());
+    return all;
+  }
 
   Context around(std::uint32_t line) const {
     const auto end = source_.line_span(line).end;
@@ -661,36 +671,36 @@ private:
     return help;
   }
 
-  static Message in_turn(const LineRepair& repair, std::string_view lines) {
-    return in_turn(lines, [&](std::string_view line) { return repair.shown(line); });
+  static Message in_turn(const Line& line, std::string_view lines) {
+    return in_turn(lines, [&](std::string_view one) { return shown(line, one); });
   }
 
-  void write(Diagnostic& finding, const LineRepair& repair, std::uint32_t at,
+  void write(Diagnostic& finding, const Line& line, std::uint32_t at,
              const std::vector<Accepted>& found) const {
-    const auto shown = repair.shown(found[0].text);
+    const auto text = shown(line, found[0].text);
     const bool one_line = found.size() > 1 &&
                           found[1].text.find_first_of("\r\n") == std::string::npos &&
                           found[0].text.find_first_of("\r\n") == std::string::npos;
-    if (one_line && repair.shown(found[1].text) != shown) {
-      finding.help = texts::WriteEither(shown, repair.shown(found[1].text));
+    if (one_line && shown(line, found[1].text) != text) {
+      finding.help = texts::WriteEither(text, shown(line, found[1].text));
       finding.fix.reset();
       return;
     }
-    const auto lines = shown.empty() ? texts::RemoveLine() : in_turn(repair, found[0].text);
+    const auto lines = text.empty() ? texts::RemoveLine() : in_turn(line, found[0].text);
     finding.help =
         found[0].note == nullptr ? lines : texts::Because(lines, Message(*found[0].note, {}));
-    if (const auto own = repair.fixed(finding);
+    if (const auto own = fixed(line, finding);
         is_safe(finding) && (!own || without_blanks(*own) == without_blanks(found[0].text)))
       return; // its own fix goes as far as it must
     const bool safe = found[0].sure && (found[0].fewer || is_safe(finding));
     const auto safety = safe ? Safety::Safe : Safety::Unsafe;
-    if (shown.empty()) {
+    if (text.empty()) {
       finding.fix = remove(at, safety);
       if (finding.fix && finding.fix->title.is(texts::EndHere))
         finding.help = texts::Write(finding.fix->edits[0].text);
       return;
     }
-    finding.fix = Fix{lines, {difference(repair.line(), found[0].text, repair.begin())}, safety};
+    finding.fix = Fix{lines, {difference(line.written, found[0].text, line.begin)}, safety};
   }
 
   /// Removes a line; what jumps to it then jumps to the next one, or to an `end` in its place.

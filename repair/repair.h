@@ -2,6 +2,7 @@
 
 #include "base/diagnostic.h"
 #include "repair/tokens.h"
+#include "spec/limits.h"
 
 #include <cstdint>
 #include <functional>
@@ -15,8 +16,9 @@
 
 namespace orb::repair {
 
-/// Of orbBasic, which stands below this room: compiler/check.cpp holds it against spec/.
-inline constexpr std::uint32_t greatest_line_number = 65535;
+/// Of orbBasic.
+inline constexpr auto greatest_line_number =
+    static_cast<std::uint32_t>(spec::value_of(spec::Limit::GreatestLineNumber));
 
 /// A line that says the same in another form.
 struct Rephrased {
@@ -26,7 +28,7 @@ struct Rephrased {
 };
 
 /// What a language answers about texts.
-struct Judge {
+struct Dialect {
   Language language = Language::Basic;
   std::vector<std::string_view> words; ///< of the language, in their documented spelling
   /// Whether a line parses by itself, as far as one line can tell.
@@ -37,6 +39,8 @@ struct Judge {
   /// All findings about a whole text.
   std::function<std::vector<Diagnostic>(std::string_view text)> check;
 };
+
+using Judge = Dialect;
 
 /// Gives the first error of each line the line to write, as help and as a fix, where one is clear.
 /// What those lines mend elsewhere, too, is told no longer. Bounded: long texts, long lines and all

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "repair/candidate.h"
 #include "repair/tokens.h"
 
 #include <span>
@@ -8,12 +9,6 @@
 #include <vector>
 
 namespace orb::repair {
-
-/// A line that small changes make of another.
-struct Candidate {
-  std::string text;
-  int cost = 0; ///< in tenths of a changed token; a slip of the hand is below 10
-};
 
 /// What one change makes of a line, the cheapest first: a word that is near another one, words
 /// joined and split, a sign too much, too few or another one, neighbours swapped. Never a number

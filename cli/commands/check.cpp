@@ -1,5 +1,6 @@
 #include "assembler/lint/lint.h"
 #include "base/render.h"
+#include "base/text/utf8.h"
 #include "cli/commands/commands.h"
 #include "cli/context/console.h"
 #include "cli/context/language.h"
@@ -32,6 +33,7 @@ struct CheckOptions {
   Policy policy;
   assembler::LintOptions macro;
   bool fix = false;
+  bool explain_repairs = false;
   bool watch = false;
 };
 
@@ -99,6 +101,25 @@ std::string page_of(const std::vector<reference::Section>& sections, const Rule&
   return {};
 }
 
+std::string_view verdict_of(const Considered& one) {
+  switch (one.verdict) {
+  case Considered::Verdict::Worse: return "no better";
+  case Considered::Verdict::Parses: return "parses";
+  case Considered::Verdict::Mends: return "mends";
+  }
+  return {};
+}
+
+/// The lines that were tried as the line to write, in order: what came of each, the step that
+/// proposed it, and its cost.
+std::string render_repairs(const Diagnostic& finding) {
+  std::string out;
+  for (const auto& one : finding.considered)
+    out += fmt::format("  tried: `{}`: {} ({}, cost {})\n", to_printable(one.line), verdict_of(one),
+                       one.origin, one.cost);
+  return out;
+}
+
 void print_findings(Context& context, const CheckOptions& options,
                     const std::vector<FileFindings>& files) {
   if (options.format == "json") {
@@ -111,9 +132,12 @@ void print_findings(Context& context, const CheckOptions& options,
     const auto say = say_in(context.ui_language);
     std::string out;
     for (const auto& file : files)
-      for (const auto& diagnostic : file.diagnostics)
+      for (const auto& diagnostic : file.diagnostics) {
         out += options.format == "gcc" ? render_gcc(*file.source, diagnostic)
                                        : render_text(*file.source, diagnostic, style, say);
+        if (options.explain_repairs)
+          out += render_repairs(diagnostic);
+      }
     print_out(out);
     if (options.format == "text" && is_terminal(Stream::Out))
       print_out(render_summary(files, say));
@@ -183,6 +207,8 @@ void add_check(const Command& orb, Context& context) {
       .show_default();
   add_policy_options(command, options->policy);
   command.add_flag("--fix", options->fix, "apply the safe fixes and write the files back");
+  command.add_flag("--explain-repairs", options->explain_repairs,
+                   "print the lines that were tried as the line to write");
   command.add_flag("--watch", options->watch, "check again whenever a file changes");
   command.callback([&context, options] {
     if (options->watch)

@@ -1,15 +1,11 @@
-#include "repair/line_repair.h"
+#include "repair/quotes.h"
 
 #include "base/text/text.h"
+#include "repair/normalise.h"
 
 #include <algorithm>
 #include <optional>
-#include <string>
 #include <string_view>
-#include <vector>
-
-// Quotes and brackets of a line that is to be mended: where one lacks, is too many, or quotes what
-// is no text.
 
 namespace orb::repair {
 namespace {
@@ -56,79 +52,17 @@ void quote_for_two(const std::string& text, std::vector<Requoted>& all) {
   }
 }
 
-} // namespace
-
-/// `"touches no wall'`: a text that another quote closes.
-void LineRepair::close_text() {
-  if (parts_.tokens.empty() || !parts_.tokens.back().is_text() || parts_.tokens.back().closed)
-    return;
-  auto& text = parts_.tokens.back();
-  const auto end = text.text.find_last_not_of(":,;");
-  if (end == std::string::npos || end == 0 || text.text[end] != '\'')
-    return;
-  text.text.resize(end);
-  text.closed = true;
-}
-
-/// `warned = "False"`: what is true is 1.
-void LineRepair::truths() {
-  auto& tokens = parts_.tokens;
-  if (is_program() && tokens.size() == 2 && holds("while until if", tokens[0].text) &&
-      tokens[1].is_text() && holds("true false", tokens[1].text))
-    tokens[1].kind = Token::Kind::Word; // `While "True"`
-  if (!is_program() || tokens.size() != 3 || !tokens[1].is("=") || !tokens[2].is_text() ||
-      !holds("true false", tokens[2].text))
-    return;
-  tokens[2].kind = Token::Kind::Number;
-  tokens[2].text = equal_words(tokens[2].text, "true") ? "1" : "0";
-}
-
-/// `DATA "222","121"` and `RGB("0,255,0")`: neither takes a text.
-void LineRepair::numbers_in_quotes() {
-  auto& tokens = parts_.tokens;
-  if (tokens.empty() || !(tokens[0].is("data") || tokens[0].is("RGB")))
-    return;
-  for (std::size_t i = 1; i < tokens.size(); ++i) {
-    const std::string_view said = tokens[i].text;
-    if (!tokens[i].is_text() || said.empty() || !is_digit(said[0]) ||
-        said.find_first_not_of("0123456789, ") != std::string_view::npos)
-      continue;
-    const auto values = tokens_of(said, judge_.language);
-    const auto at = tokens.erase(tokens.begin() + static_cast<std::ptrdiff_t>(i));
-    tokens.insert(at, values.begin(), values.end());
-  }
-}
-
-/// `state = "open"` where the program has `open`.
-void LineRepair::names_in_quotes() {
-  auto& tokens = parts_.tokens;
-  if (judge_.language != Language::Structured || has_token(tokens, "print"))
-    return;
-  for (std::size_t i = 1; i < tokens.size(); ++i)
-    if (tokens[i].is_text() && tokens[i - 1].is_relation() && has_word(names_, tokens[i].text))
-      tokens[i].kind = Token::Kind::Word;
-}
-
-/// Whether a text ends in a comma and a name: `"yes! in, tries "`.
-bool LineRepair::ends_in_name(const Token& text) const {
-  const auto comma = text.text.rfind(',');
-  if (!text.is_text() || comma == std::string::npos)
-    return false;
-  const auto name = trim(std::string_view(text.text).substr(comma + 1));
-  return has_word(names_, name) || (judge_.language == Language::Basic && name.size() == 1);
-}
-
 /// How unlikely a statement is by its texts: names of the program in them say that they end
 /// elsewhere. Nothing where an unknown word stands outside of them, or one is empty.
-std::optional<int> LineRepair::cost_of_texts(std::string_view statement) const {
+std::optional<int> cost_of_texts(const Line& line, std::string_view statement) {
   const auto is_value = [&](const Token& token) {
     const bool letter = token.text.size() == 1;
     return token.is_word() &&
-           (letter ? judge_.language != Language::Basic || to_lower(token.text[0]) != token.text[0]
-                   : has_word(names_, token.text) || has_word(judge_.words, token.text));
+           (letter ? line.language() != Language::Basic || to_lower(token.text[0]) != token.text[0]
+                   : line.has_name(token.text) || line.knows(token.text));
   };
   int cost = 0;
-  const auto tokens = tokens_of(statement, judge_.language);
+  const auto tokens = tokens_of(statement, line.language());
   for (std::size_t i = 0; i < tokens.size(); ++i) {
     if (tokens[i].is_word() && !is_value(tokens[i]))
       return std::nullopt;
@@ -140,7 +74,7 @@ std::optional<int> LineRepair::cost_of_texts(std::string_view statement) const {
     const std::string_view said = tokens[i].text;
     if (said.empty() || (i + 1 < tokens.size() && tokens[i + 1].is_text() && !tokens[i + 1].gap))
       return std::nullopt;
-    for (const auto& token : tokens_of(said, judge_.language))
+    for (const auto& token : tokens_of(said, line.language()))
       cost += is_value(token) ? name_in_text : 0;
     const bool touches =
         (i > 0 && tokens[i - 1].is_word() && !tokens[i].gap && !tokens[i - 1].is("print")) ||
@@ -153,13 +87,14 @@ std::optional<int> LineRepair::cost_of_texts(std::string_view statement) const {
   return cost;
 }
 
-/// A `print` with an odd number of quotes, with one more or less: the best places, which leave the
-/// fewest names of the program in texts. `print "toss, C ": " T` is `print "toss", C ": " T`.
-std::vector<std::string> LineRepair::with_one_quote() const {
-  const std::string text(trim(line_.substr(std::min(parts_.head.size(), line_.size()))));
+} // namespace
+
+std::vector<std::string> with_one_quote(const Line& line) {
+  const std::string text(
+      trim(line.written.substr(std::min(line.head.size(), line.written.size()))));
   constexpr std::size_t longest = 160;
-  if (!is_program() || std::count(text.begin(), text.end(), '"') % 2 == 0 ||
-      text.size() > longest || !has_token(parts_.tokens, "print") || text.ends_with('\''))
+  if (!line.is_program() || std::count(text.begin(), text.end(), '"') % 2 == 0 ||
+      text.size() > longest || !has_token(line.tokens, "print") || text.ends_with('\''))
     return {};
   std::vector<Requoted> all;
   put_in_quote(text, all);
@@ -169,8 +104,9 @@ std::vector<std::string> LineRepair::with_one_quote() const {
   std::vector<std::string> best;
   std::optional<int> least;
   for (const auto& one : all) {
-    const auto cost = cost_of_texts(one.text);
-    if (!cost || (least && *cost + one.cost > *least) || !judge_.parses(parts_.head + one.text))
+    const auto cost = cost_of_texts(line, one.text);
+    if (!cost || (least && *cost + one.cost > *least) ||
+        !line.dialect->parses(line.head + one.text))
       continue;
     if (!least || *cost + one.cost < *least)
       best.clear();
@@ -180,10 +116,8 @@ std::vector<std::string> LineRepair::with_one_quote() const {
   return best;
 }
 
-/// A bracket that is not closed: `if not (a = 1 then`, `goroll (H + 90 % 360, 80, 1`. Empty where
-/// it is.
-std::string LineRepair::with_bracket() const {
-  auto tokens = parts_.tokens;
+std::string with_bracket(const Line& line) {
+  auto tokens = line.tokens;
   for (std::size_t i = 3; i + 1 < tokens.size(); ++i) {
     const bool turn = tokens[i].is("%") && tokens[i + 1].is("360");
     if (!turn ||
