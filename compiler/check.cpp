@@ -5,7 +5,8 @@
 #include "compiler/text/parse.h"
 #include "compiler/text/rules.h"
 #include "compiler/text/texts.h"
-#include "repair/repair.h"
+#include "repair/idioms.h"
+#include "repair/program_names.h"
 #include "spec/basic.h"
 #include "spec/limits.h"
 
@@ -53,7 +54,7 @@ void offer_lines(const Program& program, const Target& target, std::vector<Diagn
   judge.words = all_words();
   judge.parses = [](std::string_view line) { return parse(line).faults.empty(); };
   judge.check = [&target](std::string_view text) { return lint(parse(text), target); };
-  repair::offer_lines(program.text, judge, findings);
+  repair::offer_program(program.text, judge, findings);
 }
 
 } // namespace
@@ -76,9 +77,8 @@ Checked read(std::string_view text) {
   }
   checked.program = parse(text);
   if (!holds_program(checked.program))
-    checked.diagnostics.push_back(
-        finding(rules::EmptyProgram, {0, 0}, texts::NoProgramLines(),
-                texts::ALineIs("10 print \"hello\"")));
+    checked.diagnostics.push_back(finding(rules::EmptyProgram, {0, 0}, texts::NoProgramLines(),
+                                          texts::ALineIs("10 print \"hello\"")));
   return checked;
 }
 
@@ -86,6 +86,7 @@ std::vector<Diagnostic> check(const Program& program, const Target& target) {
   auto findings = lint(program, target);
   if (any_error(findings))
     offer_lines(program, target, findings);
+  repair::say_foreign(program.text, repair::Language::Basic, findings);
   say_lines(program.text, findings);
   return findings;
 }

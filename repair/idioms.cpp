@@ -40,6 +40,20 @@ constexpr auto hints = std::to_array<Hint>({
 #include "repair/idioms.def"
 });
 
+/// Words of another language, and what ours does instead.
+struct Whose {
+  std::string_view patterns;
+  std::string_view language;
+  const orb::Text* text;
+  std::string_view basic;
+  std::string_view structured;
+};
+constexpr auto foreign = std::to_array<Whose>({
+#define ORB_WHOSE(patterns, language, text, basic, structured)                                     \
+  {patterns, language, &texts::text, basic, structured},
+#include "repair/idioms.def"
+});
+
 std::uint64_t bit_of(std::string_view text) {
   std::uint32_t hash = 2166136261U;
   for (const char c : text)
@@ -192,6 +206,85 @@ std::vector<std::pair<const orb::Text*, std::vector<Pattern>>> read_hints(Langua
       add_patterns(all.emplace_back(hint.text, std::vector<Pattern>()).second, hint.patterns,
                    nullptr, forms, language);
   return all;
+}
+
+/// The patterns of the words that a language lacks, and the row of each.
+struct ForeignPatterns : Patterns {
+  explicit ForeignPatterns(Language language) {
+    for (const auto& row : foreign)
+      if (const auto form = language == Language::Basic ? row.basic : row.structured;
+          !form.empty()) {
+        add_patterns(all, row.patterns, nullptr, form, language);
+        rows.resize(all.size(), &row);
+      }
+    index();
+  }
+  std::vector<const Whose*> rows;
+};
+
+struct Foreign {
+  Span span;        ///< in the line
+  std::string word; ///< where it is one
+  Message message;
+};
+
+/// The first words of a line that belong to another language: the most of them.
+std::optional<Foreign> find_foreign(std::string_view text, Language language,
+                                    const ForeignPatterns& patterns) {
+  const auto tokens = split(text, language).tokens;
+  if (tokens.size() > most_tokens)
+    return std::nullopt;
+  const MatchedLine line(tokens);
+  Matcher matcher(line, tokens.size(), false);
+  std::size_t begin = tokens.size();
+  std::size_t end = 0;
+  std::size_t best = 0;
+  for (const auto each : patterns.possible(tokens))
+    for (std::size_t at = 0; at < tokens.size() && at <= begin; ++at)
+      if (const auto stop = matcher.match(patterns.all[each], at);
+          stop > at && (at < begin || stop > end)) {
+        begin = at;
+        end = stop;
+        best = each;
+      }
+  if (end == 0)
+    return std::nullopt;
+  const auto& last = tokens[end - 1];
+  const auto stop = std::min(last.at + last.text.size() + (last.is_text() ? 2 : 0), text.size());
+  const Span span{tokens[begin].at, static_cast<std::uint32_t>(stop)};
+  const auto& row = *patterns.rows[best];
+  const auto form = patterns.all[best].meaning;
+  std::vector<Message> fillers;
+  if (form != "-")
+    fillers.push_back(Message::as_is(std::string(form)));
+  const auto word = text.substr(span.begin, span.size());
+  Message what(*row.text, std::move(fillers));
+  return Foreign{span, end == begin + 1 ? last.text : "",
+                 row.language.empty() ? texts::IsForeign(word, std::move(what))
+                                      : texts::IsWhose(word, row.language, std::move(what))};
+}
+
+/// Whether a line sets a variable of that name, or jumps there: then it is the program's own.
+bool is_own_word(const Source& source, std::string_view word, Language language) {
+  for (std::uint32_t n = 1; !word.empty() && n <= source.line_count(); ++n) {
+    const auto line = source.line(n);
+    if (line.find(word) == std::string_view::npos)
+      continue;
+    const auto tokens = split(line, language).tokens;
+    for (std::size_t i = 0; i + 1 < tokens.size(); ++i)
+      if ((equal_words(tokens[i].text, word) && tokens[i + 1].is("=")) ||
+          (equal_words(tokens[i + 1].text, word) && holds("goto gosub", tokens[i].text)))
+        return true;
+  }
+  return false;
+}
+
+/// Whether a finding is that a line, or a word in it, means nothing.
+bool is_unreadable(const Diagnostic& finding) {
+  constexpr auto troubles = std::to_array<Trouble>(
+      {Trouble::Unreadable, Trouble::UnknownName, Trouble::ForeignWord, Trouble::MalformedLine});
+  return is_error(finding) &&
+         std::find(troubles.begin(), troubles.end(), finding.rule->trouble) != troubles.end();
 }
 
 /// What fills the holes of a hint; nothing where a value has no such form.
@@ -406,6 +499,27 @@ bool is_known_word(std::string_view word, Where where) {
     return each;
   }();
   return all[static_cast<std::size_t>(where)].contains(lower(word));
+}
+
+void say_foreign(std::string_view text, Language language, std::vector<Diagnostic>& findings) {
+  static const ForeignPatterns basic(Language::Basic);
+  static const ForeignPatterns structured(Language::Structured);
+  const auto& patterns = language == Language::Basic ? basic : structured;
+  const Source source({}, std::string(text));
+  std::set<std::uint32_t> lines;
+  for (auto& finding : findings) {
+    const auto n = is_unreadable(finding) ? source.position(finding.span.begin).line : 0;
+    const auto found = n != 0 && lines.insert(n).second
+                           ? find_foreign(source.line(n), language, patterns)
+                           : std::nullopt;
+    if (!found || is_own_word(source, found->word, language))
+      continue;
+    finding.span = {source.line_start(n) + found->span.begin,
+                    source.line_start(n) + found->span.end};
+    finding.message = found->message;
+    if (!finding.fix && finding.help.is(texts::VariablesAreNamed))
+      finding.help = {};
+  }
 }
 
 Message advise(const Tokens& line, const Surroundings& around) {

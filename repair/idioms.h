@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/diagnostic.h"
 #include "base/message.h"
 #include "repair/candidate.h"
 #include "repair/tokens.h"
@@ -97,6 +98,10 @@ bool is_known_word(std::string_view word, Where where);
 
 /// What to do instead of a line that no one line replaces; empty where no row knows it.
 Message advise(const Tokens& line, const Surroundings& around);
+
+/// Says of lines that cannot be read which of their words belong to another language, and what ours
+/// does instead: it is what the person did.
+void say_foreign(std::string_view text, Language language, std::vector<Diagnostic>& findings);
 
 /// A colour by its name in any of the languages, or `#RRGGBB`: 0xRRGGBB.
 std::optional<std::uint32_t> find_colour(const Token& token);

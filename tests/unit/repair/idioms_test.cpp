@@ -30,9 +30,12 @@ struct HintRow {
   std::size_t holes;
 };
 
+/// Hints, and the words of other languages, which have the same columns.
 constexpr auto hints = std::to_array<HintRow>({
 #define ORB_HINT(patterns, text, basic, structured)                                                \
   {{patterns, &texts::text, basic, structured}, count_holes(texts::text)},
+#define ORB_WHOSE(patterns, language, text, basic, structured)                                     \
+  ORB_HINT(patterns, text, basic, structured)
 #include "repair/idioms.def"
 });
 
