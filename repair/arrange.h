@@ -1,6 +1,7 @@
 #pragma once
 
 #include "base/units.h"
+#include "repair/called.h"
 #include "repair/tokens.h"
 
 #include <cstdint>
@@ -15,7 +16,8 @@
 
 namespace orb::repair {
 
-enum class Counts : std::uint8_t { Plain, Milliseconds, Degrees, Name };
+/// The first three are bare numbers: of a channel of a colour, of a speed, of anything.
+enum class Counts : std::uint8_t { Plain, Channel, Speed, Milliseconds, Degrees, Name };
 
 /// What a command takes.
 struct Operand {
@@ -54,23 +56,5 @@ std::optional<std::string> compute(const Tokens& expression, const Quantities& k
 
 /// The number that the tokens are, with its unit.
 std::optional<Quantity> quantity_of(const Tokens& tokens, const Quantities& known);
-
-/// Whether people call an operand so: `velocidad` is `speed`.
-bool is_called(std::string_view operand, std::string_view word);
-
-/// All that a word is called in one of the languages: `cerca` is `near`.
-std::vector<std::string_view> meanings_of(std::string_view word);
-
-/// All words that an operand, a unit or a value is called.
-std::vector<std::string_view> called_words();
-
-/// Whether two words stand for the same operand, unit or value: `Richtung` and `direction`.
-bool mean_the_same(std::string_view a, std::string_view b);
-
-/// A colour as tests write it; nothing where the token is none.
-std::optional<std::string> test_colour(const Token& token);
-
-/// A small number, in digits or as a word: `three`, `drei`; 0 for others.
-int count_of(const Token& token);
 
 } // namespace orb::repair

@@ -36,7 +36,8 @@ constexpr auto notes = std::to_array<const orb::Text*>({
 });
 
 constexpr auto hints = std::to_array<Hint>({
-#define ORB_HINT(patterns, text, basic, structured) {patterns, &texts::text, basic, structured},
+#define ORB_HINT(patterns, text, basic, structured, ...)                                           \
+  {patterns, &texts::text, basic, structured, "" __VA_ARGS__},
 #include "repair/idioms.def"
 });
 
@@ -201,7 +202,9 @@ const Patterns& patterns_of(Language language) {
 std::vector<std::pair<const orb::Text*, std::vector<Pattern>>> read_hints(Language language) {
   std::vector<std::pair<const orb::Text*, std::vector<Pattern>>> all;
   for (const auto& hint : hints)
-    if (const auto forms = language == Language::Basic ? hint.basic : hint.structured;
+    if (const auto forms = language == Language::Basic        ? hint.basic
+                           : language == Language::Structured ? hint.structured
+                                                              : hint.macro;
         !forms.empty())
       add_patterns(all.emplace_back(hint.text, std::vector<Pattern>()).second, hint.patterns,
                    nullptr, forms, language);
@@ -360,6 +363,14 @@ bool is_sure(std::string_view form, const Holes& holes) {
   return true;
 }
 
+/// Whether a form has a number that nobody wrote.
+bool invents(std::string_view form) {
+  for (std::size_t at = 1; at < form.size(); ++at)
+    if (is_digit(form[at]) && (form[at - 1] == ' ' || form[at - 1] == '='))
+      return true;
+  return false;
+}
+
 /// Whether what a row says is about what it writes: a macro drives without `goroll`.
 bool fits(const orb::Text* note, std::string_view form) {
   const bool drives = note == &texts::DrivesWithGoroll || note == &texts::RollValues ||
@@ -401,7 +412,8 @@ void rewrite(const Tokens& line, const Surroundings& around,
           replaced(line, begin, end, inside ? as_operand(line, begin, end, *filled) : *filled);
       const auto* note = pattern.idiom == nullptr ? nullptr : pattern.idiom->note;
       return text != here &&
-             take({std::move(text), 10, fits(note, form) ? note : nullptr, is_sure(form, holes)});
+             take({std::move(text), 10, fits(note, form) ? note : nullptr,
+                   is_sure(form, holes) && !(around.language == Language::Macro && invents(form))});
     };
     const auto begins = [&](std::size_t i) {
       return pattern.first == 0 || (pattern.first & bit[i]) != 0;
@@ -523,13 +535,12 @@ void say_foreign(std::string_view text, Language language, std::vector<Diagnosti
 }
 
 Message advise(const Tokens& line, const Surroundings& around) {
-  static const auto basic = read_hints(Language::Basic);
-  static const auto structured = read_hints(Language::Structured);
-  if (line.empty() ||
-      (around.language != Language::Basic && around.language != Language::Structured))
+  static const std::array all_hints{read_hints(Language::Basic), read_hints(Language::Structured),
+                                    read_hints(Language::Macro)};
+  if (line.empty() || around.language == Language::Test)
     return {};
   const MatchedLine all(line);
-  for (const auto& [text, patterns] : around.language == Language::Basic ? basic : structured)
+  for (const auto& [text, patterns] : all_hints[static_cast<std::size_t>(around.language)])
     for (const auto& pattern : patterns) {
       Matcher matcher(all, line.size(), true);
       if (matcher.match(pattern, 0) != line.size())

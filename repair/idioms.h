@@ -65,6 +65,7 @@ struct Hint {
   const orb::Text* text;
   std::string_view basic;      ///< what fills the holes of the text; empty: no row for orbBasic
   std::string_view structured; ///< the same
+  std::string_view macro;      ///< the same
 };
 
 /// The words of the languages that people speak, as far as they stand for one of a program.

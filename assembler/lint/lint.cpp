@@ -428,11 +428,17 @@ std::vector<Diagnostic> lint(const Source& source, const Assembly& assembly,
 
 namespace {
 
-std::vector<std::string_view> all_words() {
+/// Words of macros, but those that a constant has in other letters: `SPEED` is no `speed`.
+std::vector<std::string_view> all_words(const Elsewhere& elsewhere) {
   std::vector<std::string_view> words{".macro", ".const", ".raw", ".noend", "on",      "off",  "id",
                                       "flags",  "delay",  "time", "speed",  "heading", "angle"};
   for (const auto& row : spec::macro_commands)
     words.push_back(row.mnemonic);
+  std::erase_if(words, [&](std::string_view word) {
+    return std::any_of(
+        elsewhere.names.begin(), elsewhere.names.end(),
+        [&](const std::string& name) { return name != word && equal_words(name, word); });
+  });
   return words;
 }
 
@@ -441,11 +447,10 @@ void offer_lines(const Source& source, const Ids& known, const LintOptions& opti
                  std::vector<Diagnostic>& findings) {
   repair::Judge judge;
   judge.language = repair::Language::Macro;
-  judge.words = all_words();
   judge.parses = [](std::string_view line) { return parse(line).diagnostics.empty(); };
-  judge.rephrase = [elsewhere = look_elsewhere(source.text())](const repair::Tokens& line) {
-    return rephrase(line, elsewhere);
-  };
+  const auto elsewhere = look_elsewhere(source.text());
+  judge.words = all_words(elsewhere);
+  judge.rephrase = [&](const repair::Tokens& line) { return rephrase(line, elsewhere); };
   judge.check = [&](std::string_view text) {
     const Source changed(source.name(), std::string(text));
     const auto assembly = assemble(changed);
@@ -456,6 +461,12 @@ void offer_lines(const Source& source, const Ids& known, const LintOptions& opti
     return found;
   };
   repair::offer_lines(source.text(), judge, findings);
+  for (auto& one : findings) // `leg 0 500ms`
+    if (one.rule == &rules::UnknownCommand && !one.fix)
+      for (const auto& name : elsewhere.macros)
+        if (source.text(one.span) == name)
+          one.help = texts::MacroTakesNone(
+              name, fmt::format("{} {}", spec::info(MacroCommand::Gosub).mnemonic, name));
 }
 
 } // namespace

@@ -158,7 +158,25 @@ Diagnostic explain(const Builder& builder, const Stop& stop, const char* end) {
                  std::move(help));
 }
 
-Diagnostic unknown_command(std::string_view word, Span span) {
+/// Whether a line begins with a word that no line of a macro begins with.
+bool is_foreign(const Builder& builder) {
+  const auto& statement = builder.statement;
+  return statement.head.size() > 0 && statement.info == nullptr &&
+         builder.text[statement.head.begin] != '.';
+}
+
+/// The word may go on up to `end`: `console.log`.
+Diagnostic unknown_command(const Builder& builder, const char* end) {
+  auto span = builder.statement.head;
+  const auto is_part = [&](std::uint32_t at) {
+    const char c = builder.text[at];
+    return is_letter(c) || is_digit(c) || c == '_';
+  };
+  const auto limit = builder.offset(end);
+  while (span.end + 1 < limit &&
+         (is_part(span.end) || (builder.text[span.end] == '.' && is_part(span.end + 1))))
+    ++span.end;
+  const std::string_view word{builder.text + span.begin, span.size()};
   std::array<std::string_view, std::size(spec::macro_commands)> names;
   for (std::size_t i = 0; i < names.size(); ++i)
     names[i] = spec::macro_commands[i].mnemonic;
@@ -189,7 +207,7 @@ std::optional<Diagnostic> commit(Builder& builder) {
       return unknown_directive(word, statement.head);
     statement.kind = row->kind;
   } else if (statement.info == nullptr) {
-    return unknown_command(word, statement.head);
+    return unknown_command(builder, builder.text + statement.head.end);
   }
   builder.program.statements.push_back(statement);
   return std::nullopt;
@@ -206,7 +224,9 @@ std::optional<Diagnostic> parse_line(Builder& builder, const char* begin, const 
     if (builder.statement.head.size() > 0)
       problem = commit(builder);
   } catch (const Stop& stop) {
-    problem = explain(builder, stop, end);
+    const bool label = stop.at != end && *stop.at == ':';
+    problem =
+        is_foreign(builder) && !label ? unknown_command(builder, end) : explain(builder, stop, end);
   }
   if (problem)
     builder.program.values.resize(values);

@@ -1,471 +1,440 @@
 #include "assembler/text/rephrase.h"
 
-#include "assembler/text/foreign.h"
 #include "assembler/text/program.h"
+#include "assembler/text/rewrites.h"
 
 #include "base/duration.h"
 #include "base/text/text.h"
-#include "repair/arrange.h"
+#include "base/units.h"
 #include "repair/idioms.h"
-#include "repair/tokens.h"
+#include "repair/inflections.h"
 #include "spec/macro.h"
 
 #include <algorithm>
-#include <array>
+#include <bit>
 #include <fmt/format.h>
-#include <utility>
+#include <functional>
+#include <set>
 
 namespace orb::assembler {
 namespace {
 
 using repair::Counts;
 using repair::Operand;
-using repair::Quantities;
 using repair::Rephrased;
 using repair::Token;
 using repair::Tokens;
+using spec::MacroCommand;
+using spec::MacroCommandInfo;
 using spec::MacroOperandKind;
 using spec::MacroUnit;
 
 constexpr std::size_t longest_constant = 240; // bytes; nobody writes longer constants
 
-Operand operand_of(const spec::MacroOperand& row) {
-  Operand operand;
-  operand.name = row.name;
-  operand.counts = row.kind == MacroOperandKind::MacroId ? Counts::Name
-                   : row.unit == MacroUnit::Degrees      ? Counts::Degrees
-                   : row.unit == MacroUnit::None         ? Counts::Plain
-                                                         : Counts::Milliseconds;
-  operand.least = row.minimum;
-  operand.most = row.maximum;
-  operand.optional = row.kind == MacroOperandKind::Delay;
-  for (const auto* word = row.begin_words(); word != row.end_words(); ++word)
-    operand.words.push_back(word->word);
-  if (operand.name == "heading")
-    operand.words = {"0", "90", "180", "270"};
-  if (operand.name == "count" || operand.name == "speed")
-    operand.words = {"255"};
-  return operand;
+/// A name in the letters that names have: `grün` is `grun`.
+std::string plain_name(const std::string& word) {
+  return std::any_of(word.begin(), word.end(), is_utf8_tail) ? repair::plain_letters(word) : word;
 }
 
-std::optional<std::int64_t> milliseconds(const std::string& text) {
-  const auto value = repair::quantity_of(repair::tokens_of(text, repair::Language::Macro), {});
-  return value && value->thousandths % whole == 0 && value->thousandths >= 0
-             ? std::optional(value->thousandths / whole)
-             : std::nullopt;
-}
+// ---- directives
 
-std::string delays(const std::string& time) {
-  const auto ms = milliseconds(time);
-  const auto waits = ms ? waits_of(*ms) : std::vector<std::int64_t>();
-  const auto word = spec::info(spec::MacroCommand::Delay).mnemonic;
-  if (waits.size() == 1)
-    return fmt::format("{} {}", word, time);
-  std::string all;
-  for (const auto wait : waits)
-    all += fmt::format("{}{} {}", all.empty() ? "" : "\n", word, time_text(wait));
-  return all;
-}
-
-/// What is taken where an operand lacks and one value is the clear one.
-std::string_view usual_of(const spec::MacroCommandInfo& info, const Operand& operand,
-                          const Elsewhere& elsewhere) {
-  const auto as_elsewhere = elsewhere.times.find(info.mnemonic);
-  const bool lasts = info.background != spec::MacroBackground::None ||
-                     info.command == spec::MacroCommand::WaitUntilStopped;
-  if (lasts && operand.counts == Counts::Milliseconds && as_elsewhere != elsewhere.times.end() &&
-      milliseconds(as_elsewhere->second))
-    return as_elsewhere->second;
-  if (info.command == spec::MacroCommand::WaitUntilStopped)
-    return "5s";
-  return info.command == spec::MacroCommand::Stabilization && operand.name == "mode" ? "on" : "";
-}
-
-/// `left 90` and `back 90` turn by -90.
-void turn_left(Tokens& values) {
-  bool left = false;
-  std::erase_if(values, [&](const Token& token) {
-    const bool to_left = token.is_word() && (repair::is_called("270", token.text) ||
-                                             repair::is_called("180", token.text));
-    left = left || to_left;
-    return to_left || (token.is_word() && repair::is_called("90", token.text));
-  });
-  for (auto& token : values)
-    if (left && token.is_number()) {
-      token.text.insert(0, "-");
-      return;
-    }
-}
-
-/// `1,5s` is `1.5s`, and `1,000` is `1000`.
-void join_decimals(Tokens& values) {
-  if (values.size() < 3 || !values[0].is_number() || !values[1].is(",") || !values[2].is_number() ||
-      values[2].gap)
-    return;
-  constexpr std::size_t thousand = 3; // digits
-  const bool thousands = values.size() == 3 && values[2].text.size() == thousand;
-  values[0].text += (thousands ? "" : ".") + values[2].text;
-  values.erase(values.begin() + 1, values.begin() + 3);
-}
-
-/// `100 -100` are powers of both motors: forward and reverse.
-void say_modes(Tokens& values) {
-  Tokens said;
-  std::size_t powers = 0;
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    const bool back = values[i].is("-") && i + 1 < values.size() && values[i + 1].is_number();
-    i += back ? 1 : 0;
-    const bool timed = i + 1 < values.size() && values[i + 1].is_word() && !values[i + 1].gap;
-    if (values[i].is(","))
-      continue;
-    if (!values[i].is_number())
-      return;
-    if (timed)
-      break;
-    said.push_back(Token{Token::Kind::Word, back ? "reverse" : "forward", true});
-    said.push_back(values[i]);
-    ++powers;
-  }
-  if (powers == 2)
-    values = said;
-}
-
-/// Letters that names do not have, and what stands for them.
-constexpr auto letters = std::to_array<std::pair<std::string_view, std::string_view>>(
-    {{"ä", "ae"}, {"ö", "oe"}, {"ü", "ue"}, {"Ä", "Ae"}, {"Ö", "Oe"}, {"Ü", "Ue"}, {"ß", "ss"},
-     {"á", "a"},  {"à", "a"},  {"â", "a"},  {"ã", "a"},  {"é", "e"},  {"è", "e"},  {"ê", "e"},
-     {"ë", "e"},  {"í", "i"},  {"ì", "i"},  {"î", "i"},  {"ï", "i"},  {"ó", "o"},  {"ò", "o"},
-     {"ô", "o"},  {"õ", "o"},  {"ú", "u"},  {"ù", "u"},  {"û", "u"},  {"ñ", "n"},  {"ç", "c"}});
-
-std::string without_accents(std::string text) {
-  for (const auto& [letter, plain] : letters)
-    for (auto at = text.find(letter); at != std::string::npos; at = text.find(letter, at))
-      text.replace(at, letter.size(), plain);
-  return text;
-}
-
-/// A name in the letters that names have: `grün` is `gruen`, `my-name` is `my_name`.
-std::string plain_name(const Tokens& tokens) {
-  std::string name;
-  for (const auto& token : tokens)
-    for (const auto& part : repair::tokens_of(token.text, repair::Language::Macro))
-      if (part.is_word() || part.is_number())
-        name += (name.empty() ? "" : "_") + without_accents(part.text);
-  std::erase_if(name, [](char c) { return !is_letter(c) && !is_digit(c) && c != '_'; });
-  return name.empty() || !is_digit(name[0]) ? name : "m" + name;
-}
-
-/// `rgb 0 255120`: two bytes side by side, where only one way parts them.
-void part_bytes(Tokens& values, std::size_t wanted) {
-  const auto numbers = std::count_if(values.begin(), values.end(),
-                                     [](const Token& token) { return token.is_number(); });
-  if (static_cast<std::size_t>(numbers) + 1 != wanted)
-    return;
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    const auto text = values[i].text;
-    const bool led = text.size() > 1 && text[0] == '0' && is_digit(text[1]); // `0 08`
-    if (!values[i].is_number() || (!led && parse_number<int>(text).value_or(0) <= UINT8_MAX))
-      continue;
-    std::size_t place = 0;
-    for (std::size_t at = 1; at < text.size(); ++at) {
-      const auto left = parse_number<int>(std::string_view(text).substr(0, at));
-      const auto right = parse_number<int>(std::string_view(text).substr(at));
-      const bool padded = text[at] == '0' && at + 1 < text.size();
-      if (!left || !right || *left > UINT8_MAX || *right > UINT8_MAX || padded)
-        continue;
-      if (place != 0)
-        return; // more than one
-      place = at;
-    }
-    if (place == 0)
-      return;
-    auto second = values[i];
-    values[i].text = text.substr(0, place);
-    second.text = text.substr(place);
-    second.gap = true;
-    values.insert(values.begin() + static_cast<std::ptrdiff_t>(i) + 1, second);
-    return;
-  }
-}
-
-/// The macro that can be meant where a command names none: those that nobody names yet but the
-/// first, which is the one that the others are called from.
-std::vector<Rephrased> with_macro(std::string_view mnemonic, const Elsewhere& elsewhere) {
-  if (elsewhere.macros.empty())
-    return {};
-  std::vector<std::string> meant(elsewhere.macros.begin() + 1, elsewhere.macros.end());
-  std::erase_if(meant, [&](const std::string& name) { return elsewhere.named.contains(name); });
-  constexpr std::size_t shown = 2;
-  if (meant.empty() || meant.size() > shown)
-    return {};
-  Rephrased all{fmt::format("{} {}", mnemonic, meant[0]), false};
-  if (meant.size() == shown)
-    all.other = fmt::format("{} {}", mnemonic, meant[1]);
-  return {all};
-}
-
-/// `roll(0, 110, 255)`: a function of another language, perhaps with the heading first.
-std::vector<Rephrased> rephrase_roll(const Tokens& line) {
-  std::vector<std::string> values;
-  for (const auto& token : repair::slice(line, 2)) {
-    if (token.is(")"))
-      break;
-    if (token.is_number())
-      values.push_back(token.text);
-    else if (!token.is(","))
-      return {};
-  }
-  const auto close = repair::close_of(line, 1);
-  for (std::size_t i = close + 1; i < line.size(); ++i) // `roll(120, 0) delay=200`
-    if (line[i].is_number())
-      values.push_back(line[i].text);
-  constexpr int brief = 20; // seconds, not milliseconds
-  const auto time = values.size() == 3 ? parse_number<int>(values[2]).value_or(1) : 0;
-  if (values.size() < 2 || values.size() > 3 || values[0] == values[1] ||
-      (time > 0 && time < brief) || parse_number<int>(values[0]).value_or(UINT16_MAX) > UINT8_MAX ||
-      parse_number<int>(values[1]).value_or(UINT16_MAX) > UINT8_MAX)
-    return {};
-  const auto delay = values.size() == 3 ? ", " + values[2] : std::string();
-  return {{fmt::format("roll {}, {}{}", values[0], values[1], delay), false,
-           fmt::format("roll {}, {}{}", values[1], values[0], delay)}};
-}
-
-std::vector<Rephrased> rephrase_command(const spec::MacroCommandInfo& info, const Tokens& line,
-                                        const Elsewhere& elsewhere) {
-  auto operands = std::vector<Operand>();
-  for (const auto& row : info) {
-    if (row.kind == MacroOperandKind::Text)
-      return line.size() == 2 && line[1].is_text()
-                 ? std::vector<Rephrased>{{fmt::format("{} \"{}\"", info.mnemonic, line[1].text)}}
-                 : std::vector<Rephrased>();
-    operands.push_back(operand_of(row));
-  }
-  if (info.command == spec::MacroCommand::Sleep)
-    return {}; // elsewhere it is a wait
-  if (info.command == spec::MacroCommand::Roll && line.size() > 1 && line[1].is("("))
-    return rephrase_roll(line);
-  for (auto& operand : operands)
-    operand.usual = usual_of(info, operand, elsewhere);
-  Tokens values = repair::slice(line, 1);
-  if (spec::MacroBackground::Rotate == info.background)
-    turn_left(values);
-  if (info.command == spec::MacroCommand::RawMotors)
-    say_modes(values);
-  if (operands.size() == 1 && operands[0].counts == Counts::Milliseconds)
-    join_decimals(values);
-  if (operands.size() == 1 && operands[0].counts == Counts::Name && values.empty())
-    return with_macro(info.mnemonic, elsewhere);
-  if (operands.size() == 1 && operands[0].counts == Counts::Name && values.size() > 1)
-    std::erase_if(values, [](const Token& token) { return token.is(":") || is_jump(token); });
-  if (operands.size() == 1 && operands[0].counts == Counts::Name)
-    for (auto& token : values)
-      if (token.is_word() || token.is_text())
-        token = Token{Token::Kind::Word, plain_name({token}), token.gap};
-  const auto needed = std::count_if(operands.begin(), operands.end(),
-                                    [](const Operand& operand) { return !operand.optional; });
-  if (std::all_of(operands.begin(), operands.end(), [](const Operand& operand) {
-        return operand.optional || (operand.counts == Counts::Plain && operand.most == UINT8_MAX);
-      }))
-    part_bytes(values, static_cast<std::size_t>(needed));
-  if (info.command == spec::MacroCommand::Roll) // a longer delay makes it a roll2
-    operands.back().most = UINT16_MAX;
-  const auto arranged = repair::arrange(values, operands, elsewhere.constants);
-  if (!arranged)
-    return {};
-  if (info.command == spec::MacroCommand::Delay)
-    if (const auto ms = milliseconds(arranged->values[0]); ms && *ms > UINT16_MAX)
-      return {{delays(arranged->values[0]), true}};
-  // Names stay where they can: none may be left out before one that has none.
-  bool all_named = true;
-  for (std::size_t i = 0; i < operands.size(); ++i)
-    all_named = all_named && (arranged->values[i].empty() || arranged->named[i]);
-  const bool commas =
-      std::any_of(line.begin(), line.end(), [](const Token& token) { return token.is(","); });
-  bool in_seconds = false;
-  const bool calls = line.size() > 1 && line[1].is("(");
-  const auto written = [&](const std::vector<std::string>& operand_values) {
-    std::string text(info.mnemonic);
-    bool first = true;
-    for (std::size_t i = 0; i < operands.size(); ++i) {
-      if (operand_values[i].empty())
-        continue;
-      constexpr int most_seconds = 20; // of a time without a unit in a call, as Python writes them
-      const auto& value = operand_values[i];
-      const auto number = parse_number<int>(value);
-      const bool seconds = calls && number && *number > 0 && *number <= most_seconds &&
-                           operands[i].counts == Counts::Milliseconds;
-      in_seconds = in_seconds || seconds;
-      text += first || !commas ? " " : ", ";
-      first = false;
-      if (all_named || (operands[i].optional && arranged->named[i]))
-        text += fmt::format("{}=", operands[i].name);
-      text += value + (seconds ? "s" : "");
-    }
-    return text;
-  };
-  const auto text = written(arranged->values);
-  // Who calls `roll(0, 100)` may think of the heading first, as other interfaces have it.
-  const bool positional = std::none_of(arranged->named.begin(), arranged->named.end(),
-                                       [](bool named) { return named; });
-  if (info.command == spec::MacroCommand::Roll && calls && positional && arranged->wait.empty()) {
-    auto exchanged = arranged->values;
-    std::swap(exchanged[0], exchanged[1]);
-    if (exchanged[0] != exchanged[1])
-      return {{text, false, written(exchanged)}};
-  }
-  if (arranged->wait.empty())
-    return {{text, arranged->sure && !in_seconds}};
-  const auto waits = delays(arranged->wait);
-  return waits.empty() ? std::vector<Rephrased>()
-                       : std::vector<Rephrased>{{text + "\n" + waits, arranged->sure}};
-}
-
-constexpr std::size_t stem_letters = 4; // that tell a flag from the others
-
-/// Whether words are of the same stems in any order: `controllo_motore` and `motor_control`.
-bool have_same_stems(std::vector<std::string> said, std::vector<std::string> meant) {
-  const auto stem = [](std::vector<std::string>& words) {
-    for (auto& word : words)
-      word.erase(std::min(word.size(), stem_letters));
-    std::sort(words.begin(), words.end());
-  };
-  stem(said);
-  stem(meant);
-  return said.size() > 1 && said == meant;
+/// The flag that has the beginnings of all words that were said: `motor`, `controllo_motore`; null
+/// without.
+const spec::MacroFlagInfo* flag_called(std::string_view said) {
+  constexpr std::size_t beginning = 3; // letters
+  const auto parts = repair::parts_of(said);
+  for (const auto& row : spec::macro_flags)
+    if (std::all_of(parts.begin(), parts.end(), [&](const std::string& part) {
+          return row.word.find(part.substr(0, beginning)) != std::string_view::npos;
+        }))
+      return &row;
+  return nullptr;
 }
 
 /// `.macro NAME id=40 flags=motor_control`, with its parts in any order.
 std::vector<Rephrased> rephrase_header(const Tokens& line) {
-  Tokens name;
+  enum class In : std::uint8_t { Name, Id, More, Flags } in = In::Name;
+  std::string name;
   std::string id;
-  std::vector<std::string> flags;
-  enum class In : std::uint8_t { Name, Id, Flags } in = In::Name;
-  Tokens flag;
-  const auto end_flag = [&] {
-    if (flag.empty())
-      return true;
-    std::string joined;
-    for (const auto& token : flag)
-      joined += token.text;
-    const auto written = without_accents(joined);
-    std::erase_if(joined, [](char c) { return c == '_' || c == '-'; });
-    if (holds(
-            "none no null nothing keine keiner aucun aucune ninguno ninguna nessuno nessuna nenhum "
-            "nenhuma geen",
-            joined)) {
-      flags.emplace_back("none");
-      flag.clear();
-      return true;
-    }
-    for (const auto& row : spec::macro_flags) {
-      std::string bare(row.word);
-      std::erase(bare, '_');
-      const bool turned = have_same_stems(repair::parts_of(written), repair::parts_of(row.word));
-      if (turned || equal_words(bare, joined) ||
-          (joined.size() > stem_letters && bare.starts_with(lower(joined)))) { // `motor`
-        flags.emplace_back(row.word);
-        flag.clear();
-        return true;
-      }
-    }
-    return false;
+  std::vector<std::string_view> flags;
+  bool sure = true;
+  bool marked = false; // `#35`
+  const auto is_id = [](const Token& token) {
+    return token.is_word() && equal_words(token.text, "id");
   };
-  const bool says_id = std::any_of(
-      line.begin(), line.end(), [](const Token& token) { return equal_words(token.text, "id"); });
+  const bool says_id = std::any_of(line.begin(), line.end(), is_id);
   for (std::size_t i = 1; i < line.size(); ++i) {
     const auto& token = line[i];
-    if (token.is("=") || token.is(":") || token.is("(") || token.is(")"))
-      continue;
-    const bool calls =
-        name.empty() && token.is("call") && i + 1 < line.size() && line[i + 1].is_word();
-    if (calls || token.is("called") || token.is("named") || (token.is("with") && !name.empty()))
-      continue;
-    if (token.is("and") && in == In::Name && !name.empty())
-      continue;
-    if (token.is("end") && i + 1 < line.size() && line[i + 1].is("signal")) {
-      if (!end_flag())
+    const auto follows = [&](std::size_t n) { return i + n < line.size() ? line[i + n] : Token(); };
+    const bool assigned = follows(1).is("=") || follows(1).is(":");
+    const bool gives =
+        assigned && !name.empty() && token.is_word(); // `numero=40`, `options=endsig`
+    if (token.kind == Token::Kind::Sign) {
+      marked = marked || token.is("#");
+      if (token.is("-") && in == In::Id)
         return {};
-      flags.emplace_back("endsig");
-      ++i;
-      continue;
-    }
-    const bool labels =
-        token.is("name") && i + 1 < line.size() && (line[i + 1].is(":") || line[i + 1].is("="));
-    if (labels ||
-        (!name.empty() && in == In::Name && token.is_word() && repair::is_called("", token.text)))
-      continue;
-    if (i + 1 < line.size() && !name.empty() && in == In::Name && token.is_word() &&
-        line[i + 1].is_word())
-      if (const auto* known =
-              spec::find_macro_flag(lower(token.text) + "_" + lower(line[i + 1].text))) {
-        flags.emplace_back(known->word); // `motor control`
-        ++i;
-        continue;
-      }
-    if (in == In::Id && id.empty() && holds("es ist is est è is vale", token.text))
-      continue;
-    if (says_id && in == In::Name && !name.empty() && token.is_number() && token.gap) {
-      i += i + 1 < line.size() && line[i + 1].is_word() && !line[i + 1].gap ? 1 : 0;
-      continue; // `spin 12s id=53`
-    }
-    // `numero=40` and `options=endsig`: what is given says what it is.
-    const bool given = !name.empty() && i + 2 < line.size() && line[i + 1].is("=");
-    const bool is_id = equal_words(token.text, "id") || equal_words(token.text, "number") ||
-                       (given && line[i + 2].is_number());
-    const bool is_flags = equal_words(token.text, "flags") || equal_words(token.text, "flag") ||
-                          (given && line[i + 2].is_word());
-    if (token.is_word() && (is_id || is_flags)) {
-      if (!end_flag())
-        return {};
-      in = is_id ? In::Id : In::Flags;
-    } else if (in == In::Id && id.empty()) {
-      id = token.text;
+    } else if ((holds("call called named", token.text) && name.empty() && follows(1).is_word()) ||
+               (equal_words(token.text, "name") && assigned)) {
       in = In::Name;
-      const bool unit = i + 1 < line.size() && !line[i + 1].gap && line[i + 1].is_word() &&
-                        line[i + 1].text.size() > 1;
-      i += unit ? 1 : 0; // `id=64deg`
-      if (i + 1 < line.size() && !line[i + 1].gap && (line[i + 1].is("O") || line[i + 1].is("o"))) {
-        id += '0'; // a letter that looks like a digit
-        ++i;
-      }
-    } else if (in == In::Flags &&
-               (token.is(",") || token.is("|") || token.is("+") || token.is("and"))) {
-      if (!end_flag())
+    } else if (is_id(token) || (gives && (follows(2).is_number() || follows(2).is("#")))) {
+      in = In::Id;
+    } else if (holds("flags flag", token.text) || (gives && follows(2).is_word())) {
+      in = In::Flags;
+    } else if (token.is_number() && id.empty() &&
+               (in == In::Id || (!says_id && (!name.empty() || follows(1).gap)))) {
+      id = token.text;
+      in = name.empty() ? In::Name : In::More;
+    } else if (token.is_number() && says_id && in == In::Name && !name.empty()) {
+      sure = false; // `spin 12s id=53`
+      i += follows(1).is_word() && !follows(1).gap ? 1 : 0;
+    } else if (token.is_number()) {
+      return {};
+    } else if (!token.gap && line[i - 1].is_number() && !id.empty()) {
+      // A letter that looks like 0, or a unit.
+      id += holds("o", token.text) ? "0" : "";
+      sure = false;
+    } else if (!name.empty() && (in == In::Id || repair::is_called("", token.text))) {
+      continue; // `id is 41`
+    } else if (in == In::Flags || in == In::More ||
+               (!name.empty() && spec::find_macro_flag(token.text) != nullptr)) {
+      const auto* flag = flag_called(token.text);
+      const bool none = repair::is_called("off", token.text);
+      const auto word = none ? std::string_view("none") : flag != nullptr ? flag->word : "";
+      if (word.empty() && in == In::Flags)
         return {};
-    } else if (in == In::Flags) {
-      const bool goes_on = !flag.empty() && spec::find_macro_flag(lower(flag.back().text) + "_" +
-                                                                  lower(token.text)) != nullptr;
-      if (token.gap && !flag.empty() && !goes_on && end_flag())
-        flag.clear();
-      flag.push_back(token);
-    } else if (const auto* known = spec::find_macro_flag(lower(token.text));
-               known != nullptr && !name.empty()) {
-      flags.emplace_back(known->word);
-    } else if (!token.is(",")) {
-      const bool apart = token.gap || line[i - 1].is("(");
-      if (token.is_number() && id.empty() && !name.empty() && apart)
-        id = token.text;
-      else
-        name.push_back(token);
+      sure = sure && (none || word == token.text);
+      if (!word.empty() && std::find(flags.begin(), flags.end(), word) == flags.end())
+        flags.push_back(word);
+    } else {
+      name += (name.empty() ? "" : "_") + plain_name(token.text);
     }
   }
-  if (!end_flag() || name.empty())
+  if (name.empty() || (says_id && id.empty()))
     return {};
-  constexpr std::string_view procedure = "PROC"; // of BBC Basic
-  if (name.size() == 1 && name[0].text.starts_with(procedure) &&
-      name[0].text.size() > procedure.size())
-    name[0].text.erase(0, procedure.size());
-  const auto plain = plain_name(name);
-  if (plain.empty())
+  std::vector<std::string> ways; // to read the id
+  if (const auto hex = hexadecimal(id); id.empty() || (hex && *hex <= UINT8_MAX))
+    ways.push_back(id);
+  for (const int base : {10, 16})
+    if (const auto byte = parse_number<int>(id, base);
+        byte && *byte <= UINT8_MAX && (base == 10 || marked) &&
+        (*byte >= spec::macro_id_user_first || (sure && !marked)))
+      ways.push_back(std::to_string(*byte));
+  if (ways.empty())
     return {};
-  if (says_id && id.empty()) // the first that users' macros have
-    id = std::to_string(spec::macro_id_user_first);
-  auto text = ".macro " + plain;
-  if (!id.empty())
-    text += " id=" + id;
-  for (std::size_t i = 0; i < flags.size(); ++i)
-    text += (i == 0 ? " flags=" : ",") + flags[i];
-  return {{text, true}};
+  const auto written = [&](std::string_view number) {
+    auto text = ".macro " + name + (number.empty() ? "" : " id=") + std::string(number);
+    for (std::size_t i = 0; i < flags.size(); ++i)
+      text += fmt::format("{}{}", i == 0 ? " flags=" : ",", flags[i]);
+    return text;
+  };
+  return {{written(ways[0]), sure && !marked, ways.size() > 1 ? written(ways[1]) : ""}};
+}
+
+/// `.const NAME = 100`
+std::vector<Rephrased> rephrase_constant(Tokens line, const repair::Quantities& constants) {
+  if (line.size() > 4 && line[1].is_word() && line[2].is_word()) // `const int step = 500`
+    line.erase(line.begin() + 1);
+  const std::size_t at = line.size() > 2 && (line[2].is("=") || line[2].is(":")) ? 3 : 2;
+  if (line.size() <= at || !line[1].is_word())
+    return {};
+  const auto value = repair::slice(line, at);
+  const auto part = repair::quantity_of(value, constants);
+  if (part && part->measure == Measure::Percent) { // of a speed or a brightness
+    constexpr std::int64_t hundred = 100 * whole;
+    return {{fmt::format(".const {} = {}", line[1].text,
+                         (part->thousandths * UINT8_MAX + hundred / 2) / hundred),
+             false}};
+  }
+  const auto known = repair::compute(value, constants);
+  return known ? std::vector<Rephrased>{{fmt::format(".const {} = {}", line[1].text, *known)}}
+               : std::vector<Rephrased>();
+}
+
+// ---- commands
+
+struct Command {
+  const MacroCommandInfo* info = nullptr;
+  Tokens values;
+  bool sure = true;
+};
+
+/// A part of a word of a line.
+struct Part {
+  std::string text;
+  std::string means; ///< in English
+  std::size_t token = 0;
+};
+
+bool says_nothing(const Part& part) {
+  return repair::is_called("", part.text) || repair::is_called("set", part.text);
+}
+
+/// Whether a word can stand for a part of a mnemonic: `warte` for `wait`, `stopp` for `stopped`.
+bool stands_for(const Part& said, const std::string& part) {
+  constexpr std::size_t stem = 4;   // letters
+  constexpr std::size_t little = 2; // as has `on`
+  return said.text == part || said.means == part || repair::is_called(part, said.text) ||
+         (std::min(said.text.size(), part.size()) >= stem &&
+          (part.starts_with(said.text) || said.text.starts_with(part))) ||
+         (part.size() == little && said.text.size() <= little + 1 && is_letter(said.text[0]));
+}
+
+/// A mnemonic that is written so, or is called so.
+const MacroCommandInfo* command_called(const std::string& words) {
+  const auto bare = [](std::string_view word) {
+    std::string letters(word);
+    std::erase(letters, '_');
+    return letters;
+  };
+  for (const auto& info : spec::macro_commands)
+    if (bare(info.mnemonic) == bare(words))
+      return &info;
+  for (const auto& called : {words, bare(words)})
+    for (const auto meaning : repair::meanings_of(called))
+      if (const auto* info = spec::find_macro_command(meaning))
+        return info;
+  return nullptr;
+}
+
+/// Parts of the words of a line; of `set_sd 2` the number, too.
+std::vector<Part> parts_of_words(const Tokens& line) {
+  constexpr std::size_t most = 8;
+  std::vector<Part> parts;
+  for (std::size_t i = 0; i < line.size() && parts.size() < most; ++i) {
+    if (line[i].is_word())
+      for (auto& text : repair::parts_of(line[i].text))
+        if (!text.empty())
+          parts.push_back({text, repair::word_at({repair::word(text)}, 0), i});
+    if (line[i].is_number() && i == 1 && parts.size() > 1)
+      parts.push_back({line[i].text, line[i].text, i});
+  }
+  parts.resize(std::min(parts.size(), most));
+  return parts;
+}
+
+/// The command that most of the first words of a line name: side by side, or apart and in other
+/// languages. None where two name as much.
+Command command_of(const Tokens& line) {
+  const auto parts = parts_of_words(line);
+  const MacroCommandInfo* best = nullptr;
+  std::uint32_t best_used = 0; // a bit a part
+  bool sure = true;
+  bool tied = false;
+  // Whether the words that are used are used as a whole, and those before them say nothing.
+  const auto leaves_nothing = [&](std::uint32_t used) {
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+      const bool is_used = (used >> i & 1U) != 0;
+      bool needed = used >> i != 0 && (used & ((1U << i) - 1U)) == 0; // before the first
+      for (std::size_t other = 0; other < parts.size(); ++other)
+        needed = needed || ((used >> other & 1U) != 0 && parts[other].token == parts[i].token);
+      if (needed && !is_used && !says_nothing(parts[i]))
+        return false;
+    }
+    return true;
+  };
+  const auto take = [&](const MacroCommandInfo* info, std::uint32_t used, bool surely) {
+    const auto more = std::popcount(used) - std::popcount(best_used);
+    if (info == nullptr || info == best || more < 0 || !leaves_nothing(used))
+      return;
+    if (more == 0 && best != nullptr) {
+      tied = tied || surely == sure;
+      return;
+    }
+    best = info;
+    best_used = used;
+    sure = surely;
+    tied = false;
+  };
+  const auto first_value = std::find_if(line.begin(), line.end(), [](const Token& token) {
+    return token.is_number() || token.is("=");
+  });
+  const auto heads =
+      static_cast<std::size_t>(std::count_if(parts.begin(), parts.end(), [&](const Part& part) {
+        return part.token <= static_cast<std::size_t>(first_value - line.begin());
+      }));
+  for (std::size_t from = 0; from < heads; ++from) {
+    std::string words;
+    for (auto end = from; end < heads; ++end) {
+      words += (words.empty() ? "" : "_") + parts[end].text;
+      take(command_called(words), ((2U << end) - 1U) & ~((1U << from) - 1U), true);
+    }
+    if (!says_nothing(parts[from]))
+      break;
+  }
+  for (const auto& info : spec::macro_commands) {
+    const auto named = repair::parts_of(info.mnemonic);
+    std::uint32_t used = 0;
+    for (const auto& part : named)
+      for (std::size_t i = 0; i < parts.size(); ++i)
+        if ((used >> i & 1U) == 0 && stands_for(parts[i], part)) {
+          used |= 1U << i;
+          break;
+        }
+    if (named.size() > 1 && std::popcount(used) == static_cast<int>(named.size()))
+      take(&info, used, false);
+  }
+  if (best == nullptr || tied)
+    return {};
+  Tokens values;
+  std::size_t last = 0;
+  std::set<std::size_t> used;
+  for (std::size_t i = 0; i < parts.size(); ++i)
+    if ((best_used >> i & 1U) != 0)
+      used.insert(last = parts[i].token);
+  for (auto i = *used.begin(); i < line.size(); ++i)
+    if (!used.contains(i) && (i > last || line[i].is_word()))
+      values.push_back(line[i]);
+  return {best, std::move(values), sure};
+}
+
+Operand operand_of(const spec::MacroOperand& row) {
+  constexpr int tick = 10; // ms
+  Operand operand;
+  operand.name = row.name;
+  operand.counts = row.kind == MacroOperandKind::MacroId ? Counts::Name
+                   : row.unit == MacroUnit::Degrees      ? Counts::Degrees
+                   : row.unit != MacroUnit::None         ? Counts::Milliseconds
+                   : holds("red green blue", row.name)   ? Counts::Channel
+                   : row.name == "speed"                 ? Counts::Speed
+                                                         : Counts::Plain;
+  operand.least = row.minimum;
+  operand.most = row.maximum * (row.unit == MacroUnit::Ticks10ms ? tick : 1);
+  operand.optional = row.kind == MacroOperandKind::Delay;
+  for (const auto* word = row.begin_words(); word != row.end_words(); ++word)
+    operand.words.push_back(word->word);
+  if (operand.counts == Counts::Degrees && operand.least >= 0)
+    operand.words = {"0", "90", "180", "270"};
+  if (operand.counts <= Counts::Speed && operand.most == UINT8_MAX)
+    operand.words.push_back("255");
+  return operand;
+}
+
+/// `rgb 0 255120`: two bytes side by side, where only one way parts them. Whether there are some.
+bool part_bytes(Tokens& values, const std::vector<Operand>& operands) {
+  std::ptrdiff_t wanted = 0;
+  for (const auto& operand : operands) {
+    if (!operand.optional && (operand.counts > Counts::Speed || operand.most != UINT8_MAX))
+      return false;
+    wanted += operand.optional ? 0 : 1;
+  }
+  const auto byte = [](std::string_view digits) {
+    const bool padded = digits.size() > 1 && digits[0] == '0';
+    return !padded && parse_number<int>(digits).value_or(UINT16_MAX) <= UINT8_MAX;
+  };
+  if (std::count_if(values.begin(), values.end(), std::mem_fn(&Token::is_number)) + 1 != wanted)
+    return false;
+  for (auto value = values.begin(); value != values.end(); ++value) {
+    const std::string text = value->text;
+    std::vector<std::size_t> places;
+    for (std::size_t at = 1; at < text.size() && value->is_number() && !byte(text); ++at)
+      if (byte(text.substr(0, at)) && byte(text.substr(at)))
+        places.push_back(at);
+    if (places.size() != 1)
+      continue;
+    value->text.resize(places[0]);
+    values.insert(value + 1, Token{Token::Kind::Number, text.substr(places[0]), true});
+    return true;
+  }
+  return false;
+}
+
+/// The lines that wait so long; empty for what would be a page of them.
+std::string delays(const std::string& time) {
+  constexpr std::int64_t most_lines = 9;
+  const auto& delay = spec::info(MacroCommand::Delay);
+  const auto value = repair::quantity_of(repair::tokens_of(time, repair::Language::Macro), {});
+  const auto ms = value ? value->thousandths / whole : -1;
+  const std::int64_t most = delay.operand[0].maximum;
+  const auto lines = std::max<std::int64_t>((ms + most - 1) / most, 1);
+  if (lines == 1 && ms >= 0)
+    return fmt::format("{} {}", delay.mnemonic, time);
+  if (ms < 0 || lines > most_lines)
+    return {};
+  std::string all;
+  for (std::int64_t i = 0; i < lines; ++i)
+    all += fmt::format("{}{} {}", i == 0 ? "" : "\n", delay.mnemonic,
+                       time_text(ms / lines + (i + 1 == lines ? ms % lines : 0)));
+  return all;
+}
+
+std::vector<Rephrased> rephrase_command(const Command& command, const Tokens& written,
+                                        const repair::Quantities& constants) {
+  if (command.info->variable_length)
+    return command.values.size() == 1 && command.values[0].is_text()
+               ? std::vector<Rephrased>{{fmt::format("{} \"{}\"", command.info->mnemonic,
+                                                     command.values[0].text)}}
+               : std::vector<Rephrased>();
+  const bool rolls = command.info->command == MacroCommand::Roll;
+  std::vector<Operand> operands; // a longer delay makes a roll a roll2
+  for (const auto& row : rolls ? spec::info(MacroCommand::Roll2) : *command.info)
+    operands.push_back(operand_of(row));
+  auto values = command.values;
+  const bool names = operands.size() == 1 && operands[0].counts == Counts::Name;
+  if (values.size() > 1) // `on_collision: jmp ahead`, `loop_start: mov 8`
+    std::erase_if(values, [&](const Token& token) {
+      const auto jumps = [&](std::string_view word) {
+        return names && (token.is(word) || repair::is_called(word, token.text));
+      };
+      return token.is_word() &&
+             (repair::is_called("set", token.text) || jumps("goto") || jumps("gosub"));
+    });
+  for (auto& token : values)
+    if (names)
+      token.text = plain_name(token.text);
+  bool guessed = part_bytes(values, operands);
+  auto found = repair::arrange(values, operands, constants);
+  for (std::size_t i = 1; i < values.size() && !found; ++i) { // `delay 60 60`: typed twice
+    if (!values[i].is_number() || values[i].text != values[i - 1].text)
+      continue;
+    auto once = values;
+    repair::take_out(once, i - 1, 1);
+    found = repair::arrange(once, operands, constants);
+    guessed = true;
+  }
+  if (!found)
+    return {};
+  if (command.info->command == MacroCommand::Delay)
+    if (auto lines = delays(found->values[0]); lines.find('\n') != std::string::npos)
+      return {{std::move(lines), command.sure && !is_digit(found->values[0].back())}};
+  // Names stay where they can: none may be left out before one that has none.
+  bool all_named = true;
+  for (std::size_t i = 0; i < operands.size(); ++i)
+    all_named = all_named && (found->values[i].empty() || found->named[i]);
+  const bool calls = repair::has_token(written, "(");
+  bool sure = found->sure && command.sure && !guessed;
+  const auto text_of = [&](const std::vector<std::string>& all) {
+    std::string text(command.info->mnemonic);
+    const auto* between = " ";
+    for (std::size_t i = 0; i < operands.size(); ++i) {
+      if (all[i].empty())
+        continue;
+      constexpr int most_seconds = 20; // of a time without a unit in a call, as Python has it
+      const auto number = parse_number<int>(all[i]);
+      const bool seconds = calls && number && *number > 0 && *number <= most_seconds &&
+                           operands[i].counts == Counts::Milliseconds;
+      sure = sure && !seconds;
+      text += between;
+      if (all_named || (operands[i].optional && found->named[i]))
+        text += fmt::format("{}=", operands[i].name);
+      text += all[i] + (seconds ? "s" : "");
+      between = repair::has_token(written, ",") ? ", " : " ";
+    }
+    return text;
+  };
+  auto text = text_of(found->values);
+  // Who calls `roll(0, 100)` may think of the heading first, as other interfaces have it.
+  if (rolls && calls && !found->named[0] && !found->named[1] && found->wait.empty() &&
+      found->values[0] != found->values[1]) {
+    auto exchanged = found->values;
+    std::swap(exchanged[0], exchanged[1]);
+    return {{std::move(text), false, text_of(exchanged)}};
+  }
+  if (found->wait.empty())
+    return {{std::move(text), sure}};
+  const auto lines = delays(found->wait);
+  return lines.empty()
+             ? std::vector<Rephrased>()
+             : std::vector<Rephrased>{{text + "\n" + lines, sure && !is_digit(found->wait.back())}};
 }
 
 } // namespace
@@ -479,76 +448,45 @@ Elsewhere look_elsewhere(std::string_view text) {
     if (line.size() > longest_constant)
       continue;
     const auto tokens = repair::split(line, repair::Language::Macro).tokens;
+    if (tokens.size() > 1 && tokens[0].is(".const"))
+      found.names.push_back(tokens[1].text);
     if (tokens.size() > 3 && tokens[0].is(".const") && tokens[2].is("="))
       if (const auto value = repair::quantity_of(repair::slice(tokens, 3), found.constants))
         found.constants.emplace(tokens[1].text, *value);
-    if (tokens.size() > 1 && tokens[0].is(".macro") && tokens[1].is_word()) {
+    if (tokens.size() > 1 && tokens[0].is(".macro") && tokens[1].is_word())
       found.macros.push_back(tokens[1].text);
-      continue;
-    }
-    for (std::size_t i = 1; i < tokens.size(); ++i)
-      if (tokens[i].is_word())
-        found.named.insert(tokens[i].text);
-    if (tokens.size() > 2 && tokens.back().is_word() && tokens[tokens.size() - 2].is_number())
-      found.times.insert_or_assign(tokens[0].text,
-                                   tokens[tokens.size() - 2].text + tokens.back().text);
   }
   return found;
 }
 
-std::vector<std::int64_t> waits_of(std::int64_t ms) {
-  constexpr std::int64_t most_lines = 9;
-  const std::int64_t most = spec::info(spec::MacroCommand::Delay).operand[0].maximum;
-  const auto lines = std::max<std::int64_t>((ms + most - 1) / most, 1);
-  if (ms < 0 || lines > most_lines)
-    return {};
-  std::vector<std::int64_t> waits(static_cast<std::size_t>(lines), ms / lines);
-  waits.back() += ms % lines;
-  return waits;
-}
-
 std::vector<Rephrased> rephrase(const Tokens& written, const Elsewhere& elsewhere) {
-  const auto& constants = elsewhere.constants;
-  auto line = own_signs(written);
-  if (line.size() == 1 && !repair::is_known_word(line[0].text, repair::Where::Line) &&
-      std::find(elsewhere.macros.begin(), elsewhere.macros.end(), line[0].text) !=
-          elsewhere.macros.end())
-    return {{fmt::format("{} {}", spec::info(spec::MacroCommand::Gosub).mnemonic, line[0].text)}};
-  if (line.size() > 3 && line[0].is_word() && line[1].is(".") && line[2].is_word())
-    line.erase(line.begin(), line.begin() + 2); // `LED.Fade(…)`
+  auto line = written;
+  for (const auto& one : rewrites())
+    if (!line.empty())
+      one.apply(line);
   if (line.empty() || !line[0].is_word())
     return {};
-  if (line.size() > 1 && (line[0].is(".macro") || line[0].is("macro")))
+  if (line[0].is(".macro"))
     return rephrase_header(line);
-  if (line[0].is(".const") || line[0].is("const")) {
-    if (line.size() > 4 && line[1].is_word() && line[2].is_word()) // `const int step = 500;`
-      line.erase(line.begin() + 1);
-    if (line.back().is(";"))
-      line.pop_back();
-    const std::size_t value = line.size() > 2 && (line[2].is("=") || line[2].is(":")) ? 3 : 2;
-    if (line.size() <= value || !line[1].is_word())
+  const auto first = std::string_view(line[0].text).substr(line[0].text[0] == '.' ? 1 : 0);
+  if (repair::is_called(".const", first))
+    return rephrase_constant(std::move(line), elsewhere.constants);
+  auto command = command_of(line);
+  if (command.info == &spec::info(MacroCommand::Sleep)) { // elsewhere it is a wait
+    if (command.values.size() != 1 || !elsewhere.constants.contains(command.values[0].text))
       return {};
-    auto rest = repair::slice(line, value);
-    if (rest.size() == 1 && rest[0].is_text())
-      rest = repair::tokens_of(rest[0].text, repair::Language::Macro);
-    if (const auto part = repair::quantity_of(rest, constants);
-        part && part->measure == Measure::Percent) { // of a speed or a brightness
-      constexpr std::int64_t hundred = 100 * whole;  // per cent
-      return {{fmt::format(".const {} = {}", line[1].text,
-                           (part->thousandths * UINT8_MAX + hundred / 2) / hundred),
-               false}};
-    }
-    const auto known = repair::compute(rest, constants);
-    return known ? std::vector<Rephrased>{{fmt::format(".const {} = {}", line[1].text, *known)}}
-                 : std::vector<Rephrased>();
+    command = {&spec::info(MacroCommand::Delay), std::move(command.values), false};
   }
-  const auto* info = command_of(line);
-  if (info == nullptr && line.size() == 2 &&
-      std::find(elsewhere.macros.begin(), elsewhere.macros.end(), line[1].text) !=
-          elsewhere.macros.end()) // `aufruf step`
-    return {{fmt::format("{} {}", spec::info(spec::MacroCommand::Gosub).mnemonic, line[1].text),
-             false}};
-  return info == nullptr ? std::vector<Rephrased>() : rephrase_command(*info, line, elsewhere);
+  if (command.info != nullptr)
+    return rephrase_command(command, written, elsewhere.constants);
+  // `step`, `aufruf step`
+  const bool known = repair::is_known_word(line[0].text, repair::Where::Line);
+  if (line.size() > 2 || (line.size() == 1 && known) ||
+      std::find(elsewhere.macros.begin(), elsewhere.macros.end(), line.back().text) ==
+          elsewhere.macros.end())
+    return {};
+  return {{fmt::format("{} {}", spec::info(MacroCommand::Gosub).mnemonic, line.back().text),
+           line.size() == 1}};
 }
 
 } // namespace orb::assembler

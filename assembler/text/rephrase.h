@@ -5,9 +5,6 @@
 #include "repair/arrange.h"
 #include "repair/repair.h"
 
-#include <cstdint>
-#include <map>
-#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -17,17 +14,14 @@ namespace orb::assembler {
 /// What the rest of a file says.
 struct Elsewhere {
   repair::Quantities constants;
-  std::map<std::string, std::string, std::less<>> times; ///< the last one of each command
-  std::vector<std::string> macros;                       ///< by their names, from the top
-  std::set<std::string, std::less<>> named;              ///< all words behind commands
+  std::vector<std::string> macros; ///< by their names
+  std::vector<std::string> names;  ///< of constants, whatever their values
 };
 Elsewhere look_elsewhere(std::string_view text);
 
-/// A line with its operands in the order of the table, each in its unit; a wait that no operand
-/// takes is a line of its own.
+/// A line as macros have it: without the signs of others, its command found by what people call it,
+/// its operands in the order of the table, each in its unit. A wait that no operand takes is a line
+/// of its own.
 std::vector<repair::Rephrased> rephrase(const repair::Tokens& line, const Elsewhere& elsewhere);
-
-/// The lines that wait so long, as a command; empty for what would be a page of them.
-std::vector<std::int64_t> waits_of(std::int64_t ms);
 
 } // namespace orb::assembler

@@ -32,8 +32,8 @@ struct HintRow {
 
 /// Hints, and the words of other languages, which have the same columns.
 constexpr auto hints = std::to_array<HintRow>({
-#define ORB_HINT(patterns, text, basic, structured)                                                \
-  {{patterns, &texts::text, basic, structured}, count_holes(texts::text)},
+#define ORB_HINT(patterns, text, basic, structured, ...)                                           \
+  {{patterns, &texts::text, basic, structured, "" __VA_ARGS__}, count_holes(texts::text)},
 #define ORB_WHOSE(patterns, language, text, basic, structured)                                     \
   ORB_HINT(patterns, text, basic, structured)
 #include "repair/idioms.def"
@@ -105,7 +105,7 @@ TEST(Idioms, FormsNameWhatTheirPatternsHold) {
 
 TEST(Idioms, HintsFillTheHolesOfTheirTexts) {
   for (const auto& [hint, holes] : hints)
-    for (const auto form : {hint.basic, hint.structured})
+    for (const auto form : {hint.basic, hint.structured, hint.macro})
       if (!form.empty()) {
         EXPECT_EQ(form == "-" ? 0 : parted(form, " ;; ").size(), holes)
             << hint.patterns << "  ->  " << form;
