@@ -49,12 +49,12 @@ std::vector<std::string_view> all_words() {
 }
 
 void offer_lines(const Program& program, const Target& target, std::vector<Diagnostic>& findings) {
-  repair::Judge judge;
-  judge.language = repair::Language::Basic;
-  judge.words = all_words();
-  judge.parses = [](std::string_view line) { return parse(line).faults.empty(); };
-  judge.check = [&target](std::string_view text) { return lint(parse(text), target); };
-  repair::offer_program(program.text, judge, findings);
+  repair::Dialect dialect;
+  dialect.language = repair::Language::Basic;
+  dialect.words = all_words();
+  dialect.parses = [](std::string_view line) { return parse(line).faults.empty(); };
+  dialect.check = [&target](std::string_view text) { return lint(parse(text), target); };
+  repair::offer_program(program.text, dialect, findings);
 }
 
 } // namespace

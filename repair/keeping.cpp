@@ -137,7 +137,7 @@ bool keeps_leaving(const Line& line, std::string_view lines) {
   const bool leaves = std::any_of(kept.begin(), kept.end(), [](const Token& token) {
     return holds("exit return continue goto abort", token.text);
   });
-  if (leaving->is("break") && leaving == line.tokens.begin() && line.around.closer == "end select")
+  if (leaving->is("break") && line.around.closer == "end select")
     return !leaves;
   const bool ends = !kept.empty() && kept.back().is("end"); // `exit()`, `return 0` of a program
   return leaves || (ends && !leaving->is("break") && !leaving->is("continue"));

@@ -25,60 +25,37 @@ std::span<const Rewrite> rewrites();
 /// Reads a line as its language would write it: spellings, signs, labels, quotes.
 void normalise(Line& line);
 
-/// Whether a text ends in a comma and a name: `"yes! in, tries "`.
-bool ends_in_name(const Line& line, const Token& text);
 /// Whether a word is one letter away from one of the language.
 bool is_misspelt(const Line& line, std::string_view word);
 
 // keys.cpp
-void close_by_key(Line& line);
 void comma_for_point(Line& line);
-void decimal_comma(Line& line);
 void join_words(Line& line);
-void missed_else(Line& line);
-void missed_name(Line& line);
 void missed_signs(Line& line);
-void part_for(Line& line);
 void part_glued(Line& line);
-void part_line(Line& line);
-void part_next(Line& line);
-void read_shifted(Line& line);
 void single_letters(Line& line);
 
 // signs.cpp
+void truths(Line& line);
+void decimal_numbers(Line& line);
+void drop_sigils(Line& line);
 void close_block(Line& line);
 void close_text(Line& line);
 void compare_with_true(Line& line);
-void count_percents(Line& line);
-void decimal_numbers(Line& line);
-void drop_brackets(Line& line);
 void drop_colons(Line& line);
-void drop_last_quote(Line& line);
-void drop_sigils(Line& line);
 void drop_types(Line& line);
 void index_arrays(Line& line);
-void names_in_quotes(Line& line);
-void numbers_in_quotes(Line& line);
 void plain_signs(Line& line);
-void read_branches(Line& line);
-void read_hexadecimal(Line& line);
 void read_thousands(Line& line);
-void texts_in_brackets(Line& line);
-void truths(Line& line);
 void words_with_one_quote(Line& line);
 
 // wordings.cpp
 void documented_spelling(Line& line);
-void drop_number_word(Line& line);
 void drop_objects(Line& line);
 void drop_prefixes(Line& line);
 void drop_pronoun(Line& line);
 void drop_small_words(Line& line);
 void other_forms(Line& line);
 void own_words(Line& line);
-void read_zeros(Line& line);
-void resolve_labels(Line& line);
-void same_letters(Line& line);
-void without_accents(Line& line);
 
 } // namespace orb::repair

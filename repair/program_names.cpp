@@ -21,7 +21,7 @@ namespace {
 
 struct Program {
   Program(std::string_view text, const Dialect& its_judge)
-      : source({}, std::string(text)), judge(its_judge), scenery(source, Language::Basic) {
+      : source({}, std::string(text)), dialect(its_judge), scenery(source, Language::Basic) {
     for (std::uint32_t n = 1; n <= source.line_count(); ++n)
       lines.push_back(split(source.line(n).substr(0, longest_line), Language::Basic));
   }
@@ -32,7 +32,7 @@ struct Program {
   }
 
   Source source;
-  const Dialect& judge;
+  const Dialect& dialect;
   Scenery scenery;
   std::vector<SplitLine> lines; ///< line 1 first
 };
@@ -100,7 +100,7 @@ bool is_name(const Program& program, std::string_view word, std::uint32_t line) 
   const auto sensor = spec::find_variable(word);
   return sensor ? spec::info(*sensor).access == spec::Access::Read &&
                       !holds("yaw xpos ypos", word) && stands(1, line)
-                : !has_word(program.judge.words, word);
+                : !has_word(program.dialect.words, word);
 }
 
 /// The first letter of a name where nobody has it, else another free one; never Y and Z.
@@ -186,7 +186,7 @@ Proposals numbers_for_labels(const Program& program) {
     const auto own = program.scenery.number(n);
     if (tokens.size() < 2 || !tokens[0].is_word() || !tokens[1].is(":") ||
         holds("else then repeat forever loop do default begin try", tokens[0].text) ||
-        has_word(program.judge.words, tokens[0].text))
+        has_word(program.dialect.words, tokens[0].text))
       continue;
     const bool alone = tokens.size() == 2;
     const auto below = alone ? program.scenery.number_below(n) : own;
@@ -197,7 +197,7 @@ Proposals numbers_for_labels(const Program& program) {
         made.fix.edits.push_back({program.span(jump.line, *jump.name, *jump.name), target});
     const bool named = !made.fix.edits.empty();
     made.last = !named &&
-                (!alone || std::any_of(program.judge.words.begin(), program.judge.words.end(),
+                (!alone || std::any_of(program.dialect.words.begin(), program.dialect.words.end(),
                                        [&](std::string_view word) {
                                          return equal_words(word, tokens[0].text.substr(
                                                                       0, word.size())); // `NEXTI:`
@@ -279,7 +279,7 @@ std::string lines_in_one(const Program& program, std::uint32_t line) {
   const auto below = parse_number<std::uint32_t>(program.scenery.number_below(line));
   auto number = parse_number<std::uint32_t>(program.scenery.number(line)).value_or(0);
   const auto is_line = [&](std::string_view part) {
-    return part.find(' ') != std::string_view::npos && program.judge.parses(part);
+    return part.find(' ') != std::string_view::npos && program.dialect.parses(part);
   };
   std::string lines;
   std::size_t from = 0;
@@ -337,7 +337,7 @@ std::string statements_in_one(const Program& program, std::uint32_t line) {
                                        : tokens.back().at + tokens.back().text.size() +
                                              (tokens.back().is_text() ? 2 : 0);
     const auto one = fmt::format("{} {}", next, trim(text.substr(from, end - from)));
-    if (!program.judge.parses(one) ||
+    if (!program.dialect.parses(one) ||
         (next != number && !program.scenery.jumps_to(std::to_string(next)).empty()))
       return {};
     lines += (lines.empty() ? "" : line_end_of(program.source.text()));
@@ -441,8 +441,9 @@ void take_over(const Program& program, const Proposals& all, const Program& then
 
 } // namespace
 
-void offer_program(std::string_view text, const Dialect& judge, std::vector<Diagnostic>& findings) {
-  const Program program(text, judge);
+void offer_program(std::string_view text, const Dialect& dialect,
+                   std::vector<Diagnostic>& findings) {
+  const Program program(text, dialect);
   auto all = letters_for_names(program);
   const auto labels = numbers_for_labels(program);
   const auto jumps = numbers_for_jumps(program, labels);
@@ -455,10 +456,10 @@ void offer_program(std::string_view text, const Dialect& judge, std::vector<Diag
     taken.emplace_back().fix = one->fix;
     taken.back().fix->safety = Safety::Safe;
   }
-  const Program then(apply_fixes(text, taken).text, judge);
-  auto after = taken.empty() ? findings : judge.check(then.source.text());
+  const Program then(apply_fixes(text, taken).text, dialect);
+  auto after = taken.empty() ? findings : dialect.check(then.source.text());
   part_lines(then, after);
-  offer_lines(then.source.text(), judge, after);
+  offer_lines(then.source.text(), dialect, after);
   if (taken.empty())
     findings = std::move(after);
   else
@@ -472,7 +473,7 @@ void offer_program(std::string_view text, const Dialect& judge, std::vector<Diag
     const auto& edit = own->fix.edits.front();
     auto line = std::string(program.source.line(n));
     line.replace(edit.span.begin - program.source.line_start(n), edit.span.size(), edit.text);
-    if (judge.parses(line))
+    if (dialect.parses(line))
       tell(finding, *own, line, edit, program.source);
   }
 }

@@ -8,6 +8,7 @@ namespace orb::repair {
 /// of several letters become free letters, labels the numbers of their lines, and statements with
 /// numbers of their own lines of their own; the other lines are looked at in the program that this
 /// makes.
-void offer_program(std::string_view text, const Dialect& judge, std::vector<Diagnostic>& findings);
+void offer_program(std::string_view text, const Dialect& dialect,
+                   std::vector<Diagnostic>& findings);
 
 } // namespace orb::repair

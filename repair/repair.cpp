@@ -39,13 +39,13 @@ Edit difference(std::string_view from, std::string_view to, std::uint32_t begin)
 }
 
 /// A name that is nowhere defined because its definition is misspelt: the definition is mended.
-bool mend_definition(const Source& source, const Judge& judge, const Scenery& scenery,
+bool mend_definition(const Source& source, const Dialect& dialect, const Scenery& scenery,
                      const std::vector<Diagnostic>& before, Diagnostic& finding) {
   const auto word = source.text(finding.span);
-  auto other = scenery.misspelt(word, judge.words);
-  if (!other && judge.language == Language::Structured) {
+  auto other = scenery.misspelt(word, dialect.words);
+  if (!other && dialect.language == Language::Structured) {
     const auto tokens =
-        split(source.line(source.position(finding.span.begin).line), judge.language).tokens;
+        split(source.line(source.position(finding.span.begin).line), dialect.language).tokens;
     if (auto sub = scenery.sub_for(word, values_between(tokens, 1));
         !sub.empty() && !tokens.empty() && tokens[0].text == word)
       other = std::move(sub);
@@ -53,7 +53,7 @@ bool mend_definition(const Source& source, const Judge& judge, const Scenery& sc
   if (!other)
     return false;
   for (std::uint32_t n = 1; n <= source.line_count(); ++n)
-    for (const auto& token : split(source.line(n), judge.language).tokens) {
+    for (const auto& token : split(source.line(n), dialect.language).tokens) {
       if (!token.is_word() || token.text != *other)
         continue;
       const auto begin = source.line_start(n) + token.at;
@@ -61,7 +61,7 @@ bool mend_definition(const Source& source, const Judge& judge, const Scenery& sc
                       std::string(word)};
       auto text = std::string(source.text());
       text.replace(begin, other->size(), word);
-      if (errors_in(judge.check(text)) >= errors_in(before))
+      if (errors_in(dialect.check(text)) >= errors_in(before))
         return false;
       auto line = std::string(source.line(n));
       line.replace(token.at, other->size(), word);
@@ -73,12 +73,12 @@ bool mend_definition(const Source& source, const Judge& judge, const Scenery& sc
 }
 
 /// Whether a line that becomes several parses then.
-bool parses_after(const Edit& edit, std::string_view line, Span span, const Judge& judge) {
+bool parses_after(const Edit& edit, std::string_view line, Span span, const Dialect& dialect) {
   std::string text(line);
   text.replace(edit.span.begin - span.begin, edit.span.size(), edit.text);
   for (std::string_view rest = text; !rest.empty();) {
     const auto end = std::min(rest.find('\n'), rest.size());
-    if (!judge.parses(rest.substr(0, end)))
+    if (!dialect.parses(rest.substr(0, end)))
       return false;
     rest.remove_prefix(std::min(end + 1, rest.size()));
   }
@@ -90,11 +90,11 @@ bool is_one_of(const Diagnostic& finding, std::initializer_list<Trouble> trouble
 }
 
 /// Whether a line does not parse, or has a word that means nothing.
-bool is_malformed(const Diagnostic& finding, std::string_view line, const Judge& judge) {
+bool is_malformed(const Diagnostic& finding, std::string_view line, const Dialect& dialect) {
   if (finding.rule->trouble == Trouble::Pattern)
     return false;
-  if ((judge.language != Language::Basic && judge.language != Language::Structured) ||
-      !judge.parses(line))
+  if ((dialect.language != Language::Basic && dialect.language != Language::Structured) ||
+      !dialect.parses(line))
     return true;
   return is_one_of(finding, {Trouble::UnknownName, Trouble::WrongValue, Trouble::ArgumentCount,
                              Trouble::ForeignWord, Trouble::ReservedName, Trouble::MalformedLine});
@@ -102,18 +102,18 @@ bool is_malformed(const Diagnostic& finding, std::string_view line, const Judge&
 
 /// Whether a finding is about how its line is written: a line that parses is only looked at where a
 /// word in it means nothing, and a fix of several lines knows better.
-bool is_about_writing(const Diagnostic& finding, const Source& source, const Judge& judge,
+bool is_about_writing(const Diagnostic& finding, const Source& source, const Dialect& dialect,
                       std::uint32_t line) {
   const auto text = source.line(line);
   const auto span = source.line_span(line);
   if (finding.fix)
     for (const auto& edit : finding.fix->edits)
       if (edit.span.begin < span.begin || edit.span.end > span.end ||
-          (edit.text.find('\n') != std::string::npos && parses_after(edit, text, span, judge)))
+          (edit.text.find('\n') != std::string::npos && parses_after(edit, text, span, dialect)))
         return false;
   if (finding.span.end > span.end)
     return false; // it goes on below
-  return is_malformed(finding, text, judge);
+  return is_malformed(finding, text, dialect);
 }
 
 std::string without_blanks(std::string text) {
@@ -157,14 +157,14 @@ bool goes_on(std::string_view line) {
 /// Offers lines for the findings of one text.
 class Offers {
 public:
-  Offers(std::string_view text, const Judge& judge, std::vector<Diagnostic>& findings)
-      : source_({}, std::string(text)), judge_(judge), findings_(findings), before_(findings),
-        scenery_(source_, judge.language), names_(defined_names(source_, judge.language)) {}
+  Offers(std::string_view text, const Dialect& dialect, std::vector<Diagnostic>& findings)
+      : source_({}, std::string(text)), dialect_(dialect), findings_(findings), before_(findings),
+        scenery_(source_, dialect.language), names_(defined_names(source_, dialect.language)) {}
 
   void make() {
-    if (judge_.language == Language::Basic)
+    if (dialect_.language == Language::Basic)
       blocks();
-    if (judge_.language == Language::Structured)
+    if (dialect_.language == Language::Structured)
       for (auto& finding : findings_) {
         close_block(finding);
         open_block(finding);
@@ -180,9 +180,9 @@ public:
     });
     for (auto* finding : first)
       offer(*finding);
-    if (judge_.language == Language::Test)
+    if (dialect_.language == Language::Test)
       take_back({first.rbegin(), first.rend()}); // what `prints` lists, from its first text on
-    if (judge_.language == Language::Structured) {
+    if (dialect_.language == Language::Structured) {
       take_back(first);
       offer_again(first);
       close_mended();
@@ -197,7 +197,7 @@ private:
   bool says_the_same(std::string_view line, std::string_view written) const {
     return repair::says_the_same(
         line, written,
-        {judge_.language, judge_.words, names_, judge_.parses,
+        {dialect_.language, dialect_.words, names_, dialect_.parses,
          [this](std::string_view label) { return scenery_.number_of(label); }});
   }
 
@@ -205,11 +205,14 @@ private:
   void hold(Diagnostic& finding) const {
     const auto at = line_of(finding);
     std::string line(source_.line(at));
-    if (!keeps_from_building(finding) || !is_safe(finding) || !is_malformed(finding, line, judge_))
+    if (!keeps_from_building(finding) || !is_safe(finding) ||
+        !is_malformed(finding, line, dialect_))
       return;
+    if (dialect_.language == Language::Structured && finding.rule->trouble == Trouble::ForeignWord)
+      return; // the parser read it as the word that is written: the program is the same
     const auto span = source_.line_span(at);
     const auto& edits = finding.fix->edits;
-    const auto parts = split(line, judge_.language);
+    const auto parts = split(line, dialect_.language);
     const bool numbers = edits.back().span.end <= span.begin + parts.head.size() &&
                          !parts.tokens.empty() && parts.tokens[0].is_word();
     if (edits.front().span.begin < span.begin || edits.back().span.end > span.end || numbers)
@@ -228,12 +231,12 @@ private:
 
   /// Blocks of several lines, each with one fix at all of its findings.
   void blocks() {
-    for (const auto& block : blocks_as_jumps(source_, scenery_, judge_.parses)) {
+    for (const auto& block : blocks_as_jumps(source_, scenery_, dialect_.parses)) {
       Fix fix{texts::ReplaceBlock(), block.edits, Safety::Safe};
       Diagnostic all;
       all.fix = fix;
       fix.safety = block.sure ? Safety::Safe : Safety::Unsafe;
-      if (errors_in(judge_.check(apply_fixes(source_.text(), {all}).text)) >= errors_in(before_))
+      if (errors_in(dialect_.check(apply_fixes(source_.text(), {all}).text)) >= errors_in(before_))
         continue;
       for (auto& finding : findings_) {
         const auto written = block.lines.find(line_of(finding));
@@ -251,13 +254,13 @@ private:
   bool is_to_mend(const Diagnostic& finding) {
     const auto line = line_of(finding);
     return !source_.line(line).empty() && source_.line(line).size() <= longest_line &&
-           (is_about_writing(finding, source_, judge_, line) || continues(line)) &&
+           (is_about_writing(finding, source_, dialect_, line) || continues(line)) &&
            lines_.insert(line).second;
   }
 
   /// Whether a line seems to go on from the one above.
   bool continues(std::uint32_t line) const {
-    return judge_.language == Language::Structured && line > 1 && goes_on(source_.line(line - 1));
+    return dialect_.language == Language::Structured && line > 1 && goes_on(source_.line(line - 1));
   }
 
   /// The nearest line that is not blank; 0 where there is none.
@@ -281,7 +284,7 @@ private:
   /// nothing ends the block.
   bool join_if(Diagnostic& finding) const {
     const auto line = line_of(finding);
-    if (judge_.language != Language::Basic)
+    if (dialect_.language != Language::Basic)
       return false;
     const auto tokens = tokens_at(line);
     if (tokens.empty())
@@ -296,7 +299,7 @@ private:
 
   Tokens tokens_at(std::uint32_t line) const {
     const auto text = line == 0 ? std::string_view() : source_.line(line);
-    return text.size() > longest_line ? Tokens() : split(text, judge_.language).tokens;
+    return text.size() > longest_line ? Tokens() : split(text, dialect_.language).tokens;
   }
 
   static bool begins_if(const Tokens& tokens) {
@@ -327,7 +330,7 @@ private:
   /// Whether a line but `but` ends an `if` or its first part.
   bool ends_an_if(std::uint32_t but = 0) const {
     for (std::uint32_t n = 1; n <= source_.line_count(); ++n) {
-      const auto tokens = split(source_.line(n).substr(0, longest_line), judge_.language).tokens;
+      const auto tokens = split(source_.line(n).substr(0, longest_line), dialect_.language).tokens;
       if (n != but && !tokens.empty() &&
           (tokens[0].is("endif") || tokens[0].is("else") || tokens[0].is("}") ||
            (tokens.size() > 1 && tokens[0].is("end"))))
@@ -343,11 +346,11 @@ private:
                  scenery_.number(line).empty();
         }))
       return false;
-    auto first = split(source_.line(lines[0]), judge_.language);
+    auto first = split(source_.line(lines[0]), dialect_.language);
     if (first.tokens.empty() || !first.tokens[0].is("if") || !first.comment.empty())
       return false;
     if (first.tokens.back().is(":"))
-      first.tokens.back() = tokens_of("then", judge_.language)[0];
+      first.tokens.back() = tokens_of("then", dialect_.language)[0];
     first.tokens.back().gap = true;
     auto joined = first.head + repair::join(first.tokens);
     Fix fix{texts::RemoveLine(), {}, Safety::Unsafe};
@@ -361,7 +364,7 @@ private:
         return false;
       fix.edits.insert(fix.edits.end(), removed->edits.begin(), removed->edits.end());
     }
-    if (!judge_.parses(joined))
+    if (!dialect_.parses(joined))
       return false;
     fix.edits.push_back({source_.line_span(lines[0]), joined});
     std::sort(fix.edits.begin(), fix.edits.end(),
@@ -377,7 +380,7 @@ private:
 
   /// Whether a word is unknown because the line that sets or names it is wrong itself.
   bool is_consequence(const Diagnostic& finding) const {
-    if (judge_.language != Language::Structured || !is_unknown(finding))
+    if (dialect_.language != Language::Structured || !is_unknown(finding))
       return false;
     const auto word = source_.text(finding.span);
     const auto at = line_of(finding);
@@ -462,7 +465,7 @@ private:
   std::string until(const Tokens& condition) const {
     if (condition.size() > 1 && condition[0].is("not"))
       return repair::join(Tokens(condition.begin() + 1, condition.end()));
-    return opposite(condition, judge_.language).value_or("");
+    return opposite(condition, dialect_.language).value_or("");
   }
 
   void offer(Diagnostic& finding) {
@@ -472,12 +475,12 @@ private:
       mended_.insert(&finding);
       return;
     }
-    if (is_unknown(finding) && mend_definition(source_, judge_, scenery_, before_, finding)) {
+    if (is_unknown(finding) && mend_definition(source_, dialect_, scenery_, before_, finding)) {
       mended_.insert(&finding);
       return;
     }
     auto at = line_of(finding);
-    const bool here = is_about_writing(finding, source_, judge_, at);
+    const bool here = is_about_writing(finding, source_, dialect_, at);
     auto line = read(at);
     auto found = here ? mend(line, finding) : std::vector<Accepted>();
     if (found.empty() && continues(at) && lines_.insert(at - 1).second) {
@@ -489,7 +492,7 @@ private:
     if (!found.empty()) {
       write(finding, line, at, found);
       mended_.insert(&finding);
-      if ((found.size() == 1 || judge_.language == Language::Test) &&
+      if ((found.size() == 1 || dialect_.language == Language::Test) &&
           (found[0].fewer || found[0].open))
         texts_[at] = found[0].text;
     } else if (here && finding.fix && says_line(finding.help) && !mends(finding)) {
@@ -504,7 +507,7 @@ private:
   /// Whether fewer errors are left with the fix of a finding alone.
   bool mends(Diagnostic finding) const {
     finding.fix->safety = Safety::Safe; // as it is taken
-    return errors_in(judge_.check(apply_fixes(source_.text(), {finding}).text)) <
+    return errors_in(dialect_.check(apply_fixes(source_.text(), {finding}).text)) <
            errors_in(before_);
   }
 
@@ -515,14 +518,14 @@ private:
       return;
     std::optional<std::size_t> errors; // of the text as it will be
     for (auto* finding : findings) {
-      if (judge_.language != Language::Test && !judge_.parses(source_.line(line_of(*finding))))
+      if (dialect_.language != Language::Test && !dialect_.parses(source_.line(line_of(*finding))))
         continue;
       if (!errors)
-        errors = errors_in(judge_.check(whole_text()));
+        errors = errors_in(dialect_.check(whole_text()));
       const auto mended = texts_.extract(line_of(*finding));
       if (mended.empty())
         continue;
-      if (errors_in(judge_.check(whole_text())) > *errors) {
+      if (errors_in(dialect_.check(whole_text())) > *errors) {
         texts_.insert({mended.key(), mended.mapped()});
         continue;
       }
@@ -534,12 +537,12 @@ private:
   /// What a block begins with may have been mended after what is in it: from the first line down,
   /// each line is judged once more among the others.
   void offer_again(const std::vector<Diagnostic*>& findings) {
-    if (texts_.empty() || errors_in(judge_.check(whole_text())) == 0)
+    if (texts_.empty() || errors_in(dialect_.check(whole_text())) == 0)
       return;
     for (auto finding = findings.rbegin(); finding != findings.rend(); ++finding) {
       const auto& first = before_[static_cast<std::size_t>(*finding - findings_.data())];
       const auto at = line_of(first);
-      if (!is_about_writing(first, source_, judge_, at))
+      if (!is_about_writing(first, source_, dialect_, at))
         continue;
       auto line = read(at);
       auto again = first;
@@ -560,7 +563,7 @@ private:
       const auto mended = texts_.find(line_of(finding));
       if (!is_unclosed(finding) || mended == texts_.end())
         continue;
-      const auto word = word_at(split(mended->second, judge_.language).tokens, 0);
+      const auto word = word_at(split(mended->second, dialect_.language).tokens, 0);
       const auto was = end_of(source_.text(finding.span));
       const auto& said = finding.help.fillers();
       const auto at = std::find(said.begin(), said.end(), was);
@@ -589,7 +592,7 @@ private:
 
   /// A line as it is read.
   Line read(std::uint32_t at) const {
-    auto line = look_at(source_, judge_, scenery_, at);
+    auto line = look_at(source_, dialect_, scenery_, at);
     normalise(line);
     return line;
   }
@@ -615,7 +618,7 @@ private:
   }
 
   std::vector<Diagnostic> findings_about(const std::string& text) const {
-    return text == source_.text() ? before_ : judge_.check(text);
+    return text == source_.text() ? before_ : dialect_.check(text);
   }
   std::vector<Diagnostic> before(std::uint32_t line, const Context& context) const {
     return texts_.empty()
@@ -635,7 +638,7 @@ private:
     for (auto& one : offered)
       one.fix->safety = Safety::Safe; // as all are taken
     const Source then({}, apply_fixes(source_.text(), offered).text);
-    const auto after = judge_.check(then.text());
+    const auto after = dialect_.check(then.text());
     for (const auto& one : after)
       if (keeps_from_building(one))
         replace_end(then, one);
@@ -742,7 +745,8 @@ private:
   /// Removes a line; what jumps to it then jumps to the next one, or to an `end` in its place.
   std::optional<Fix> remove(std::uint32_t line, Safety safety) const {
     Fix fix{texts::RemoveLine(), {}, safety};
-    const auto number = judge_.language == Language::Basic ? scenery_.number(line) : std::string();
+    const auto number =
+        dialect_.language == Language::Basic ? scenery_.number(line) : std::string();
     const auto jumps = number.empty() ? std::vector<Span>() : scenery_.jumps_to(number);
     const auto next = jumps.empty() ? std::string() : scenery_.number_below(line);
     if (!jumps.empty() && next.empty()) {
@@ -760,7 +764,7 @@ private:
   }
 
   const Source source_;
-  const Judge& judge_;
+  const Dialect& dialect_;
   std::vector<Diagnostic>& findings_;
   const std::vector<Diagnostic> before_;
   Scenery scenery_;
@@ -773,9 +777,9 @@ private:
 
 } // namespace
 
-void offer_lines(std::string_view text, const Judge& judge, std::vector<Diagnostic>& findings) {
+void offer_lines(std::string_view text, const Dialect& dialect, std::vector<Diagnostic>& findings) {
   if (text.size() <= most_bytes && errors_in(findings) > 0)
-    Offers(text, judge, findings).make();
+    Offers(text, dialect, findings).make();
 }
 
 } // namespace orb::repair

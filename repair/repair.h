@@ -40,11 +40,9 @@ struct Dialect {
   std::function<std::vector<Diagnostic>(std::string_view text)> check;
 };
 
-using Judge = Dialect;
-
 /// Gives the first error of each line the line to write, as help and as a fix, where one is clear.
 /// What those lines mend elsewhere, too, is told no longer. Bounded: long texts, long lines and all
 /// but the first lines with errors stay as they are.
-void offer_lines(std::string_view text, const Judge& judge, std::vector<Diagnostic>& findings);
+void offer_lines(std::string_view text, const Dialect& dialect, std::vector<Diagnostic>& findings);
 
 } // namespace orb::repair

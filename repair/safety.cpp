@@ -390,18 +390,21 @@ Steps block_words(const Place& place) {
     std::string_view theirs;
     std::string_view ours;
   };
-  constexpr auto pairs = std::to_array<Pair>({{"do while", "while"},
-                                              {"do until", "while not ("},
-                                              {"loop while", "until not ("},
-                                              {"loop until", "until"},
-                                              {"end procedure", "end sub"},
-                                              {"end func", "end function"},
-                                              {"end for", "next"},
-                                              {"exit sub", "return"},
-                                              {"do", "repeat"},
-                                              {"do", "loop"},
-                                              {"loop", "end while"},
-                                              {"loop", "end loop"}});
+  constexpr auto pairs =
+      std::to_array<Pair>({{"do while", "while"},
+                           {"do until", "while not ("},
+                           {"loop while", "until not ("},
+                           {"loop until", "until"},
+                           {"end procedure", "end sub"},
+                           {"end func", "end function"},
+                           {"end for", "next"},
+                           {"exit sub", "return"},
+                           {"break", "exit"}, // in a case repair/keeping.cpp leaves it out
+                           {"default", "else"},
+                           {"do", "repeat"},
+                           {"do", "loop"},
+                           {"loop", "end while"},
+                           {"loop", "end loop"}});
   if (place.reading.language != Language::Structured || !begins(place.said, place.i))
     return {};
   const auto says = [](const Tokens& tokens, std::size_t at, std::string_view phrase) {
@@ -518,8 +521,10 @@ bool is_idle(const Tokens& tokens, std::size_t open, std::size_t close) {
   const auto& before = open > 0 ? tokens[open - 1] : nothing();
   const auto& after = close + 1 < tokens.size() ? tokens[close + 1] : nothing();
   const bool calls = before.is_word() && !tokens[open].gap;
+  const bool operand =
+      before.is_word() && !begins(tokens, open - 1) && holds("* / % + -", after.text);
   if (inner.size() == 1)
-    return true;
+    return !operand; // of what is `rnd 256 - 1`?
   const bool computes = std::any_of(inner.begin(), inner.end(), [](const Token& token) {
     return token.is_relation() || (token.is_word() && is_operator(token));
   });
@@ -528,7 +533,7 @@ bool is_idle(const Tokens& tokens, std::size_t open, std::size_t close) {
                      before.is(",") || before.is("(") || (before.is("=") && !computes);
   const bool ended = after.text.empty() || after.is(",") || after.is(")") || after.is("then") ||
                      after.is("goto") || after.is("to") || after.is("step") || after.is("{") ||
-                     after.is(":") || after.is(new_line);
+                     after.is(":") || after.is(";") || after.is(new_line);
   const bool values = has_token(inner, ",");
   return begun && ended && (!values || (before.is_word() && (calls || begins(tokens, open - 1))));
 }
@@ -555,6 +560,9 @@ bool is_lone(const Tokens& tokens, std::size_t at) {
 Steps bracket_in(const Place& place) {
   if (!(place.to().is("(") || place.to().is(")")))
     return {};
+  if (place.reading.language == Language::Structured && place.to(1).is(")") && place.j > 0 &&
+      place.is_name(place.written[place.j - 1].text))
+    return {{0, 2}}; // a call without values
   const auto opens = place.to().is("(") ? place.j : open_of(place.written, place.j);
   const bool lacked =
       opens < place.written.size() && has_token(place.said, place.to().is("(") ? ")" : "(");

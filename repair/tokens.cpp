@@ -80,10 +80,24 @@ public:
   }
 
 private:
+  /// The bytes of a sign that looks like a blank, or like nothing; 0 where none stands here.
+  std::size_t special_blank() const {
+    constexpr auto special = std::to_array<std::string_view>(
+        {"\u00A0", "\u00AD", "\u2002", "\u2003", "\u2009", "\u200B", "\u200C", "\u200D", "\u202F",
+         "\u2060", "\u3000", "\uFEFF"});
+    if (!may_draw(text_[at_]))
+      return 0;
+    const auto* const found = std::find_if(special.begin(), special.end(),
+                                           [&](std::string_view one) { return sees(one); });
+    return found == special.end() ? 0 : found->size();
+  }
   void blanks() {
-    while (at_ < text_.size() &&
-           (is_blank(text_[at_]) || text_.substr(at_).starts_with("\xC2\xA0")))
-      at_ += text_[at_] == '\xC2' ? 2 : 1;
+    while (at_ < text_.size()) {
+      const auto size = is_blank(text_[at_]) ? 1 : special_blank();
+      if (size == 0)
+        return;
+      at_ += size;
+    }
   }
   bool sees(std::string_view what) const { return text_.substr(at_).starts_with(what); }
 
@@ -282,7 +296,8 @@ private:
     constexpr std::string_view until = "jusqu'"; // the one word with such a sign
     if (text_.substr(begin).starts_with(until))
       at_ += until.size() - 1;
-    while (at_ < text_.size() && (is_part(text_[at_]) || is_tail(text_[at_])) && !is_drawn())
+    while (at_ < text_.size() && (is_part(text_[at_]) || is_tail(text_[at_])) && !is_drawn() &&
+           special_blank() == 0)
       ++at_;
     add(tokens, Token::Kind::Word, std::string(text_.substr(begin, at_ - begin)));
     return true;

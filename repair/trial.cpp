@@ -235,6 +235,8 @@ std::optional<std::string> fixed(const Line& line, const Diagnostic& finding) {
 
 std::string shown(const Line& line, std::string_view text) {
   auto parts = split(text, line.language());
+  if (constexpr std::string_view mark = "\uFEFF"; parts.head.starts_with(mark))
+    parts.head.erase(0, mark.size()); // of a file's encoding
   const auto tail = text.substr(text.size() - std::min(text.size(), parts.comment.size()));
   if (!parts.comment.empty() && !parts.tokens.empty() && line.written.ends_with(tail))
     parts.comment.clear();

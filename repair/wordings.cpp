@@ -50,22 +50,6 @@ void drop_small_words(Line& line) {
     }
 }
 
-/// `goroll zéro,0,0`
-void read_zeros(Line& line) {
-  for (auto& token : line.tokens)
-    if (token.is_word() && holds("zero zéro cero null nul", token.text) &&
-        line.is_foreign(token.text))
-      token = Token{Token::Kind::Number, "0", token.gap};
-}
-
-/// `mín(` where there is `min`.
-void without_accents(Line& line) {
-  for (auto& token : line.tokens)
-    if (token.is_word() && std::any_of(token.text.begin(), token.text.end(), is_utf8_tail))
-      if (const auto plain = plain_letters(token.text); line.knows(plain) || line.has_name(plain))
-        token.text = plain;
-}
-
 /// `Math.max(`, `Program.best(` and `FNmean` where `max`, `best` and `mean` are known.
 void drop_prefixes(Line& line) {
   auto& tokens = line.tokens;
@@ -140,24 +124,6 @@ void drop_objects(Line& line) {
     tokens.pop_back();
 }
 
-/// `isRecord` where the program has `is_record`.
-void same_letters(Line& line) {
-  const auto bare = [](std::string_view word) {
-    auto letters = lower(word);
-    std::erase(letters, '_');
-    return letters;
-  };
-  for (auto& token : line.tokens) {
-    if (!token.is_word() || !line.is_foreign(token.text))
-      continue;
-    const auto own = std::find_if(line.names.begin(), line.names.end(), [&](std::string_view name) {
-      return name != token.text && bare(name) == bare(token.text);
-    });
-    if (own != line.names.end())
-      token.text = *own;
-  }
-}
-
 /// Whether a word is one letter away from one of the language.
 bool is_misspelt(const Line& line, std::string_view word) {
   const auto near = closest(word, line.dialect->words);
@@ -189,26 +155,6 @@ void drop_pronoun(Line& line) {
   if (tokens.size() > 3 && holds("if while until", tokens[0].text) && tokens[1].is("it") &&
       tokens[2].is("is") && line.has_name(tokens[3].text) && !line.scenery->is_sub(tokens[3].text))
     take_out(tokens, 1, 2);
-}
-
-/// Jumps to labels, as other languages have them, become jumps to their lines.
-void resolve_labels(Line& line) {
-  auto& tokens = line.tokens;
-  for (std::size_t i = 0; i + 1 < tokens.size(); ++i) {
-    const bool jumps = equal_words(tokens[i].text, "goto") || equal_words(tokens[i].text, "gosub");
-    if (!jumps || !tokens[i + 1].is_word())
-      continue;
-    if (const auto number = line.scenery->number_of(tokens[i + 1].text); !number.empty())
-      tokens[i + 1].text = number;
-  }
-}
-
-/// `marker no. 13`
-void drop_number_word(Line& line) {
-  auto& tokens = line.tokens;
-  for (std::size_t i = 1; i + 2 < tokens.size(); ++i)
-    if (holds("no nr nº num", tokens[i].text) && tokens[i + 1].is(".") && !tokens[i + 1].gap)
-      take_out(tokens, i, 2);
 }
 
 /// Words in their documented spelling, where the robot looks at case.

@@ -292,14 +292,14 @@ void offer_lines(Compiled& compiled, std::string_view text, const compiler::Targ
   for (const auto& d : program.diagnostics)
     if (is_main(d))
       own.push_back(d);
-  repair::Judge judge;
-  judge.language = repair::Language::Structured;
-  judge.words = all_words();
-  judge.parses = parses;
-  judge.check = [&](std::string_view changed) {
+  repair::Dialect dialect;
+  dialect.language = repair::Language::Structured;
+  dialect.words = all_words();
+  dialect.parses = parses;
+  dialect.check = [&](std::string_view changed) {
     return front(main.name, main.path, changed, target, files);
   };
-  repair::offer_lines(text, judge, own);
+  repair::offer_lines(text, dialect, own);
   std::erase_if(program.diagnostics, is_main);
   program.diagnostics.insert(program.diagnostics.begin(), std::make_move_iterator(own.begin()),
                              std::make_move_iterator(own.end()));

@@ -445,13 +445,13 @@ std::vector<std::string_view> all_words(const Elsewhere& elsewhere) {
 /// The line to write, for each error; what other files define stays defined.
 void offer_lines(const Source& source, const Ids& known, const LintOptions& options,
                  std::vector<Diagnostic>& findings) {
-  repair::Judge judge;
-  judge.language = repair::Language::Macro;
-  judge.parses = [](std::string_view line) { return parse(line).diagnostics.empty(); };
+  repair::Dialect dialect;
+  dialect.language = repair::Language::Macro;
+  dialect.parses = [](std::string_view line) { return parse(line).diagnostics.empty(); };
   const auto elsewhere = look_elsewhere(source.text());
-  judge.words = all_words(elsewhere);
-  judge.rephrase = [&](const repair::Tokens& line) { return rephrase(line, elsewhere); };
-  judge.check = [&](std::string_view text) {
+  dialect.words = all_words(elsewhere);
+  dialect.rephrase = [&](const repair::Tokens& line) { return rephrase(line, elsewhere); };
+  dialect.check = [&](std::string_view text) {
     const Source changed(source.name(), std::string(text));
     const auto assembly = assemble(changed);
     auto found = assembly.diagnostics;
@@ -460,7 +460,7 @@ void offer_lines(const Source& source, const Ids& known, const LintOptions& opti
     found.insert(found.end(), more.begin(), more.end());
     return found;
   };
-  repair::offer_lines(source.text(), judge, findings);
+  repair::offer_lines(source.text(), dialect, findings);
   for (auto& one : findings) // `leg 0 500ms`
     if (one.rule == &rules::UnknownCommand && !one.fix)
       for (const auto& name : elsewhere.macros)

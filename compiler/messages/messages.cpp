@@ -161,7 +161,7 @@ private:
                      spelled(names(true)));
     const auto best = closest(token_, statement_words());
     if (best && equal_words(*best, token_))
-      return make(rules::UnknownStatement, texts::NotAStatementCase(token_));
+      return make(rules::UnknownStatement, texts::NotAStatementCase(token_), texts::Write(*best));
     auto d = make(rules::UnknownStatement, texts::NotAStatement(token_));
     if (best && token_.size() >= least && !repair::is_known_word(token_, repair::Where::Line)) {
       d.help = texts::DidYouMean(*best);

@@ -224,11 +224,11 @@ bool makes_variable(std::string_view line) {
 
 /// The line to write, for each error.
 void offer_lines(const Source& source, std::vector<Diagnostic>& findings) {
-  repair::Judge judge;
-  judge.language = repair::Language::Test;
-  judge.words = all_words();
+  repair::Dialect dialect;
+  dialect.language = repair::Language::Test;
+  dialect.words = all_words();
   const auto elsewhere = look_elsewhere(source);
-  judge.parses = [elsewhere, words = judge.words](std::string_view line) {
+  dialect.parses = [elsewhere, words = dialect.words](std::string_view line) {
     const auto tokens = repair::tokens_of(line, repair::Language::Test);
     if (!tokens.empty() && tokens[0].is_word() &&
         std::find(words.begin(), words.end(), tokens[0].text) == words.end())
@@ -246,13 +246,13 @@ void offer_lines(const Source& source, std::vector<Diagnostic>& findings) {
     return reads("test \"x\"\n", "") || reads("", "") || reads("", "\n  expect resting") ||
            reads("test \"x\"\nexpect prints\n", "");
   };
-  judge.rephrase = [elsewhere](const repair::Tokens& line) {
+  dialect.rephrase = [elsewhere](const repair::Tokens& line) {
     return documented_forms(line, elsewhere);
   };
-  judge.check = [&](std::string_view text) {
+  dialect.check = [&](std::string_view text) {
     return FileReader(Source(source.name(), std::string(text))).read().diagnostics;
   };
-  repair::offer_lines(source.text(), judge, findings);
+  repair::offer_lines(source.text(), dialect, findings);
 }
 
 } // namespace
