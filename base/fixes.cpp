@@ -141,7 +141,19 @@ void say_lines(std::string_view text, std::vector<Diagnostic>& diagnostics) {
 }
 
 Fixed fix_all(std::string text, const Check& check) {
-  return fix_all(std::move(text), check, check);
+  // What a fix is judged by is what the next round begins with.
+  std::string last;
+  std::vector<Diagnostic> found;
+  bool any = false;
+  const auto once = [&](std::string_view changed) {
+    if (!any || changed != last) {
+      last = changed;
+      found = check(changed);
+      any = true;
+    }
+    return found;
+  };
+  return fix_all(std::move(text), once, once);
 }
 
 Fixed fix_all(std::string text, const Check& check, const Check& judge) {

@@ -91,7 +91,7 @@ bool invents_macro(const Line& line, std::string_view statement) {
   const bool sounds = std::any_of(said.begin(), said.end(), [](const Token& token) {
     return holds("sound sounds music audio speaker tone song", token.text);
   });
-  return sounds || (is_digit(statement[macrun.size()]) &&
+  return sounds || (statement.size() > macrun.size() && is_digit(statement[macrun.size()]) &&
                     std::none_of(said.begin(), said.end(),
                                  [](const Token& token) { return token.is_number(); }));
 }

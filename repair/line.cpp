@@ -7,6 +7,19 @@
 
 namespace orb::repair {
 
+namespace {
+
+/// A head with blanks in the place of what only looks like one.
+std::string with_blanks(std::string_view head) {
+  std::string plain;
+  for (const char c : head)
+    if (!is_utf8_tail(c))
+      plain += is_digit(c) || is_blank(c) ? c : ' ';
+  return plain;
+}
+
+} // namespace
+
 bool has_word(const std::vector<std::string_view>& words, std::string_view word) {
   return std::any_of(words.begin(), words.end(),
                      [&](std::string_view one) { return equal_words(one, word); });
@@ -45,7 +58,7 @@ std::string Line::with(std::string_view statement) const {
   if (statement.empty() && comment.empty())
     return {};
   auto text = head;
-  const auto behind = written.substr(std::min(head.size(), written.size()));
+  const auto behind = written.substr(head_size);
   if (!head.empty() && is_digit(head.back()) && !statement.empty() && !behind.empty() &&
       !is_letter(behind[0]))
     text += ' '; // `10) LEDC 1`
@@ -60,6 +73,8 @@ Line look_at(const Source& source, const Dialect& dialect, const Scenery& scener
   const auto written = source.line(number);
   Line line;
   static_cast<SplitLine&>(line) = split(written, dialect.language);
+  line.head_size = line.head.size();
+  line.head = with_blanks(line.head);
   line.dialect = &dialect;
   line.scenery = &scenery;
   line.written = written;

@@ -36,8 +36,9 @@ bool negates(const Token& token);
 struct Line : SplitLine {
   const Dialect* dialect = nullptr;
   const Scenery* scenery = nullptr;
-  std::string_view written; ///< as it stands in the text
-  std::uint32_t begin = 0;  ///< where that is in the text
+  std::string_view written;  ///< as it stands in the text
+  std::uint32_t begin = 0;   ///< where that is in the text
+  std::size_t head_size = 0; ///< of the head as it is written
   Surroundings around;
   std::vector<std::string_view> names;   ///< words of other lines; of orbBasic: none
   std::vector<std::string_view> letters; ///< of orbBasic: variables that other lines use

@@ -325,7 +325,8 @@ std::string statements_in_one(const Program& program, std::uint32_t line) {
                          tokens.begin(), tokens.end(), [](const Token& t) { return t.is(":"); })) +
                      1;
   const auto step = below > number ? std::min((below - number) / count, std::uint32_t{10}) : 0;
-  if (number == 0 || count == 1 || step == 0 || holds("if", tokens[0].text))
+  if (number == 0 || count == 1 || step == 0 || holds("if", tokens[0].text) ||
+      text.size() > longest_line)
     return {};
   std::string lines;
   auto next = number;
@@ -333,9 +334,7 @@ std::string statements_in_one(const Program& program, std::uint32_t line) {
   for (std::size_t i = 1; i <= tokens.size(); ++i) {
     if (i < tokens.size() && !tokens[i].is(":"))
       continue;
-    const auto end = i < tokens.size() ? tokens[i].at
-                                       : tokens.back().at + tokens.back().text.size() +
-                                             (tokens.back().is_text() ? 2 : 0);
+    const auto end = i < tokens.size() ? tokens[i].at : text.size(); // with the comment
     const auto one = fmt::format("{} {}", next, trim(text.substr(from, end - from)));
     if (!program.dialect.parses(one) ||
         (next != number && !program.scenery.jumps_to(std::to_string(next)).empty()))

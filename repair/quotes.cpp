@@ -90,8 +90,7 @@ std::optional<int> cost_of_texts(const Line& line, std::string_view statement) {
 } // namespace
 
 std::vector<std::string> with_one_quote(const Line& line) {
-  const std::string text(
-      trim(line.written.substr(std::min(line.head.size(), line.written.size()))));
+  const std::string text(trim(line.written.substr(line.head_size)));
   constexpr std::size_t longest = 160;
   if (!line.is_program() || std::count(text.begin(), text.end(), '"') % 2 == 0 ||
       text.size() > longest || !has_token(line.tokens, "print") || text.ends_with('\''))

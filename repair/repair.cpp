@@ -499,7 +499,11 @@ private:
       finding.help = {}; // one error would only take the place of another
       finding.fix.reset();
     } else if (here && says_little(finding)) {
-      if (auto advice = advise(line.tokens, line.around); !advice.empty())
+      // What a person typed says it best; what was read of that may.
+      auto advice = advise(split(line.written, line.language()).tokens, line.around);
+      if (advice.empty())
+        advice = advise(line.tokens, line.around);
+      if (!advice.empty())
         finding.help = std::move(advice);
     }
   }

@@ -4,6 +4,7 @@
 #include "base/text/text.h"
 #include "repair/colours.h"
 #include "repair/idioms.h"
+#include "repair/scenery.h"
 #include "repair/units.h"
 
 #include <algorithm>
@@ -177,6 +178,9 @@ Steps same_time(const Place& place) {
   const auto written_unit = unit_at(place, place.to(1));
   if (written_unit == 0 && place.reading.language != Language::Basic)
     return {};
+  constexpr std::size_t longest = 9; // digits; nobody waits longer
+  if (place.from().text.size() > longest || place.to().text.size() > longest)
+    return {};
   const auto value = thousandths_in(place.from().text);
   const auto other = thousandths_in(place.to().text);
   const bool same =
@@ -206,8 +210,8 @@ Steps or_equal(const Place& place) {
   if (twice && place.i == 2 && place.from(2).is("then"))
     return {{2, 6}};
   const auto& next = place.from(2);
-  const auto from = parse_number<int>(place.from(1).text);
-  const auto to = parse_number<int>(place.to(1).text);
+  const auto from = parse_number<std::int64_t>(place.from(1).text);
+  const auto to = parse_number<std::int64_t>(place.to(1).text);
   const bool ends = !is_operator(next) || next.is_word() || next.is("&&") || next.is("||");
   return ends && from && to && *to == *from + (least ? -1 : 1) ? Steps{{2, 2}} : Steps();
 }
@@ -862,7 +866,7 @@ std::string_view words_of(std::string_view comment) {
 std::vector<std::string> defined_names(const Source& source, Language language) {
   std::set<std::string> names;
   for (std::uint32_t n = 1; n <= source.line_count(); ++n) {
-    const auto tokens = split(source.line(n).substr(0, most_tokens * 4), language).tokens;
+    const auto tokens = split(source.line(n).substr(0, longest_line), language).tokens;
     for (std::size_t i = 0; i < tokens.size(); ++i) {
       if (!tokens[i].is_word())
         continue;

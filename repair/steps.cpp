@@ -98,7 +98,7 @@ OwnFix own_fix(const Trial& trial) {
   own.safe = finding.fix->safety == Safety::Safe;
   own.leaves_out = edit.text.empty() && edit.span.size() > 0 &&
                    is_letter(line.written[edit.span.begin - line.begin]) &&
-                   own.line->find_first_not_of(" \t;", line.head.size()) != std::string::npos;
+                   own.line->find_first_not_of(" \t;", line.head_size) != std::string::npos;
   return own;
 }
 
@@ -180,12 +180,13 @@ Next one_by_one(Trial& trial) {
   for (auto at = begin + 1; at <= tokens.end(); ++at) {
     const Tokens part(begin, at);
     const bool twice = at != tokens.end() && part.size() == 1 && at->text == part[0].text;
-    if (twice || (at != tokens.end() && !begins(at)) || !begins(begin) || // `print print "x"`
-        !line.dialect->parses(line.head + join(part)))
-      continue;
-    lines += (lines.empty() ? "" : "\n") + join(part);
-    begin = at;
-    if (at == tokens.end())
+    const bool ends = at == tokens.end();
+    if (!twice && (ends || begins(at)) && begins(begin) && // `print print "x"`
+        line.dialect->parses(line.head + join(part))) {
+      lines += (lines.empty() ? "" : "\n") + join(part);
+      begin = at;
+    }
+    if (ends)
       break;
   }
   if (begin == tokens.end() && lines.find('\n') != std::string::npos)
@@ -291,7 +292,7 @@ Next by_fix(Trial& trial) {
     return Next::GoOn;
   const auto accepted = trial.offer_lines({*own.line, 0, nullptr, own.safe});
   if (accepted && accepted->errors > 0)
-    trial.offer_declared_otherwise(own.line->substr(line.head.size()));
+    trial.offer_declared_otherwise(own.line->substr(std::min(line.head_size, own.line->size())));
   return Next::GoOn;
 }
 
@@ -680,8 +681,8 @@ constexpr auto steps = std::to_array<Step>({
     {"initials",          basic,      When::NothingFound, by_initials},
     {"changes",           all,        When::NothingFound, by_all_changes},
     {"words too many",    all,        When::NothingFound, among_unknown},
-    {"unit too many",     all,        When::NothingFound, without_unit},
-    {"unit too many",     all,        When::NothingFound, without_units},
+    {"unit too many",     programs | test, When::NothingFound, without_unit},
+    {"unit too many",     programs | test, When::NothingFound, without_units},
     {"names of values",   all,        When::NothingFound, without_names},
     {"quantity too many", all,        When::NothingFound, without_quantity},
     {"milliseconds",      all,        When::Always,       in_milliseconds},

@@ -73,7 +73,7 @@ void drop_prefixes(Line& line) {
     const bool waits = token.is("await") && i + 1 < tokens.size() &&
                        holds("delay sleep wait asyncio", tokens[i + 1].text); // counted in seconds
     if (token.is("await") && !waits && i + 1 < tokens.size() && tokens[i + 1].is_word()) {
-      take_out(tokens, i, 1);
+      take_out(tokens, i--, 1);
       continue;
     }
     const bool member = i + 2 < tokens.size() && tokens[i + 1].is(".") && tokens[i + 2].is_word();

@@ -140,7 +140,7 @@ std::vector<Rephrased> rephrase_constant(Tokens line, const repair::Quantities& 
   const auto value = repair::slice(line, at);
   const auto part = repair::quantity_of(value, constants);
   if (part && part->measure == Measure::Percent) { // of a speed or a brightness
-    constexpr std::int64_t hundred = 100 * whole;
+    constexpr std::int64_t hundred = 100 * whole;  // percent
     return {{fmt::format(".const {} = {}", line[1].text,
                          (part->thousandths * UINT8_MAX + hundred / 2) / hundred),
              false}};

@@ -1,6 +1,8 @@
 #include "base/text/suggest.h"
 #include "compiler/lint/text_pass.h"
 
+#include <algorithm>
+
 namespace orb::compiler {
 
 void TextPass::check_branch(const StatementNode& statement) {
@@ -202,11 +204,15 @@ void TextPass::check_single_quotes(const StatementNode& statement, Span comment)
   const auto rest = trim(text.substr(last + 1)); // `, A`: what else was to be printed
   if (!rest.empty() && rest[0] != ',' && rest[0] != ';')
     return;
-  const auto quoted = fmt::format("\"{}\"", text.substr(1, last - 1));
+  auto quoted = std::string(text.substr(0, last + 1));
+  if (std::count(quoted.begin(), quoted.end(), '\'') % 2 == 0)
+    std::replace(quoted.begin(), quoted.end(), '\'', '"'); // several texts
+  else
+    quoted = fmt::format("\"{}\"", text.substr(1, last - 1)); // `'it's'`
   auto& d = findings_.add(rules::SingleQuotes, {statement.span.begin, comment.end},
                           texts::StartsAComment('\''),
                           texts::Write(fmt::format("print {}{}", quoted, rest)));
-  if (quoted.find('"', 1) == quoted.size() - 1)
+  if (text.find('"') == std::string_view::npos)
     d.fix = single_fix(
         d.help, {comment.begin, comment.begin + static_cast<std::uint32_t>(last) + 1}, quoted);
 }
@@ -255,6 +261,12 @@ void TextPass::add_missing_blank(std::uint32_t at, Message message) {
   blank_missing_ = true;
   auto& d = findings_.add(rules::MissingBlank, {at, at}, std::move(message));
   d.fix = single_fix(texts::InsertSpace(), {at, at}, " ");
+  const auto text = std::string_view(program_.text).substr(at);
+  const bool digit = !text.empty() && holds("O o l I", text.substr(0, 1)) &&
+                     (text.size() == 1 || is_blank(text[1])) && at > 0 &&
+                     is_digit(program_.text[at - 1]);
+  if (digit)
+    d.fix->safety = Safety::Unsafe; // `12O goto 10` is line 120
 }
 
 void TextPass::check_node(const Node& node) {
@@ -322,8 +334,10 @@ void TextPass::add_negative(const Node& node) {
   d.help = texts::Write(fmt::format("(0{})", program_.text_of(node.span)));
   // Each function around it may get parentheses in the same round, which also count.
   if (2 * node.depth + 1 + deepest_below(node) <= spec::value_of(spec::Limit::ExpressionLevels))
-    d.fix =
-        Fix{d.help, {{{begin, begin}, "(0"}, {{node.span.end, node.span.end}, ")"}}, Safety::Safe};
+    d.fix = Fix{d.help,
+                {{{begin, begin}, "(0"}, {{node.span.end, node.span.end}, ")"}},
+                // `N -- 1`: one sign too many, more often than a number below 0
+                begin > 0 && program_.text[begin - 1] == '-' ? Safety::Unsafe : Safety::Safe};
 }
 
 void TextPass::check_system(const Node& node) {

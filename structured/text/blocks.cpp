@@ -381,12 +381,6 @@ std::vector<std::string_view> words_after_end() {
   return words;
 }
 
-bool is_loop_word(std::string_view word) {
-  return std::any_of(blocks.begin(), blocks.end(), [&](const OpenBlock& block) {
-    return is_loop(block.opener) && equal_words(block.word, word);
-  });
-}
-
 bool opens_block(Kind kind) {
   return by_opener(kind) != nullptr;
 }

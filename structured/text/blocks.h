@@ -20,9 +20,6 @@ std::string_view words_of_end(Kind end);
 /// The words that `end` ends: `if`, `while` …
 std::vector<std::string_view> words_after_end();
 
-/// Whether a word opens a loop.
-bool is_loop_word(std::string_view word);
-
 /// Links the statements of a file that open, part and close the same block, and reports those that
 /// do not fit.
 void link_blocks(Program& program, const File& file);

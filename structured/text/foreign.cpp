@@ -53,8 +53,6 @@ constexpr auto rows = std::to_array<Foreign>({
     {First, "void", "loop", "loop", "Arduino"},
     {First, "void", "", "sub", "C"},
     {First, "func", "", "function", "Go/Swift"},
-    {First, "foreach", "", "for", "C#/PHP"},
-    {First, "dim", "", "array", "BASIC"},
     {First, "var let", "", "", "JavaScript"},
     {First, "call", "", "", "Visual Basic"},
     {First, "int long byte", "", "", "C"},

@@ -407,6 +407,9 @@ bool Lines::skip_remark(Input& in, const char* line) {
     return false;
   auto d = structured::foreign(program_, builder_.span(at, at + size), row->languages, row->here);
   d.fix->edits = {{builder_.span(at, line_end), parts.comment}};
+  const auto said = trim(rest.substr(size));
+  if (!said.empty() && !parts.tokens.empty() && std::all_of(said.begin(), said.end(), is_digit))
+    d.fix->safety = Safety::Unsafe; // `n # 0`: no remark, but another operator
   builder_.report(std::move(d));
   in.bump(rest.size());
   return true;
@@ -536,9 +539,10 @@ bool Lines::gives_value(const char* p) const {
     const std::string_view line(p, static_cast<std::size_t>(find_line_end(p, end_) - p));
     if (holds("sub function def", begin))
       return false;
-    const auto at = lower(line).find("return ");
-    if (at != std::string::npos)
-      return true;
+    const auto tokens = repair::split(line, repair::Language::Structured).tokens;
+    for (std::size_t i = 0; i + 1 < tokens.size(); ++i)
+      if (tokens[i].is_word() && equal_words(tokens[i].text, "return"))
+        return true;
   }
   return false;
 }

@@ -134,7 +134,8 @@ Diagnostic foreign_character(const Program& program, Span found) {
       {"\u2002\u2003\u2009\u3000", &texts::SpecialSpace},
       {"\u00AD\u200B\u200C\u200D\u2060\uFEFF", &texts::InvisibleCharacter}};
   for (const auto& [signs, name] : unseen)
-    if (signs.find(sign) != std::string_view::npos) {
+    if (sign.size() > 1 && signs.find(sign) != std::string_view::npos && !is_utf8_tail(sign[0]) &&
+        (sign.size() > 2 || sign[0] == '\xC2')) {
       const bool blank = name != &texts::InvisibleCharacter;
       auto d = finding(rules::MalformedLine, found, Message(*name, {}),
                        blank ? texts::WriteBlank() : texts::RemoveIt());
@@ -242,10 +243,17 @@ Diagnostic line_number(const Program& program, Span found) {
     return finding(rules::MalformedLine, found, texts::NoStatementBegins(number));
   auto d =
       finding(rules::NumberedLine, found, texts::NoLineNumbers(), texts::TurnsNumbered("orb lift"));
+  // Of a few lines it is a slip, of most of them another language.
+  std::size_t numbered = 0;
+  std::size_t all = 0;
+  for (std::size_t at = 0; at < text.size(); ++all) {
+    const auto begin = std::min(text.find_first_not_of(" \t\r\n", at), text.size());
+    numbered += begin < text.size() && is_digit(text[begin]) ? 1 : 0;
+    at = std::min(text.find('\n', begin), text.size() - 1) + 1;
+  }
   const auto after = text.find_first_not_of(" \t", found.end);
   const auto end = std::min(text.find_first_of("\r\n", found.end), text.size());
-  const auto below = std::min(text.find_first_not_of(" \t\r\n", end), text.size() - 1);
-  if (is_digit(text[below]) || after >= end)
+  if (numbered * 2 > all || after >= end)
     return d;
   d.help = texts::Write(text.substr(after, end - after));
   d.fix = Fix{compiler::texts::RemoveNumber(),

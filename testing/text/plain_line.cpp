@@ -159,7 +159,7 @@ void name_test(Tokens& line) {
     return;
   }
   const bool clause = holds("that if whether dass ob que si che", line[1].text);
-  const std::size_t begin = !clause ? 1 : line[2].is("it") ? 3 : 2;
+  const std::size_t begin = !clause ? 1 : line.size() > 2 && line[2].is("it") ? 3 : 2;
   auto end = begin;
   const auto ends = [&](std::size_t at) {
     return line[at].is_text() || line[at].is("(") || line[at].is("seeds") ||

@@ -187,7 +187,7 @@ void FileReader::check_when(Cursor& cursor, const Expectation& one, const Said& 
   if (one.never && said.times.size() > 0)
     return wrong(said.times, file_texts::TakesNoCount("never"), file_texts::WriteNoTimes());
   if (one.never && when == Of::Within)
-    return wrong(said.when, file_texts::NeverCoversAll(), file_texts::PartOfRun());
+    return wrong(said.when, file_texts::NeverCoversAll(), file_texts::WriteLike("during 0s..10s"));
   switch (row.kind) {
   case Kind::State: return;
   case Kind::Stay:
