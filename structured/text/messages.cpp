@@ -246,10 +246,9 @@ Diagnostic line_number(const Program& program, Span found) {
   // Of a few lines it is a slip, of most of them another language.
   std::size_t numbered = 0;
   std::size_t all = 0;
-  for (std::size_t at = 0; at < text.size(); ++all) {
-    const auto begin = std::min(text.find_first_not_of(" \t\r\n", at), text.size());
-    numbered += begin < text.size() && is_digit(text[begin]) ? 1 : 0;
-    at = std::min(text.find('\n', begin), text.size() - 1) + 1;
+  for (auto begin = text.find_first_not_of(" \t\r\n"); begin < text.size(); ++all) {
+    numbered += is_digit(text[begin]) ? 1 : 0;
+    begin = text.find_first_not_of(" \t\r\n", std::min(text.find('\n', begin), text.size()));
   }
   const auto after = text.find_first_not_of(" \t", found.end);
   const auto end = std::min(text.find_first_of("\r\n", found.end), text.size());
