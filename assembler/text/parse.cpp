@@ -173,9 +173,8 @@ Diagnostic unknown_command(const Builder& builder, const char* end) {
     return is_letter(c) || is_digit(c) || c == '_';
   };
   const auto limit = builder.offset(end);
-  while (span.end < limit &&
-         (is_part(span.end) ||
-          (builder.text[span.end] == '.' && span.end + 1 < limit && is_part(span.end + 1))))
+  while (span.end < limit && (is_part(span.end) || (builder.text[span.end] == '.' &&
+                                                    span.end + 1 < limit && is_part(span.end + 1))))
     ++span.end;
   const std::string_view word{builder.text + span.begin, span.size()};
   std::array<std::string_view, std::size(spec::macro_commands)> names;

@@ -174,7 +174,7 @@ std::string as_written(const std::string& token) {
 std::string plain(std::string meaning) {
   meaning = std::regex_replace(meaning, std::regex("\\(0-([A-Z0-9]+)\\)"), "-$1");
   meaning = std::regex_replace(meaning, std::regex("\\b0-"), "-");
-  return std::regex_replace(meaning, std::regex("print[ ;]*"), "print");
+  return std::regex_replace(meaning, std::regex("(print|\\?)[ ;]*"), "print");
 }
 
 /// All its numbers but those of its lines, its texts, and its names.
