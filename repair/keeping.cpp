@@ -1,7 +1,6 @@
 #include "repair/keeping.h"
 
 #include "base/text/text.h"
-#include "repair/arrange.h"
 #include "repair/colours.h"
 #include "repair/fill.h"
 #include "repair/units.h"

@@ -1,7 +1,6 @@
 #include "repair/normalise.h"
 
 #include "base/text/text.h"
-#include "repair/units.h"
 
 #include <algorithm>
 #include <array>

@@ -1,7 +1,7 @@
 #include "repair/line.h"
 
 #include "base/text/text.h"
-#include "repair/arrange.h"
+#include "repair/called.h"
 
 #include <algorithm>
 
@@ -20,7 +20,7 @@ std::string with_blanks(std::string_view head) {
 
 } // namespace
 
-bool has_word(const std::vector<std::string_view>& words, std::string_view word) {
+bool has_word(std::span<const std::string_view> words, std::string_view word) {
   return std::any_of(words.begin(), words.end(),
                      [&](std::string_view one) { return equal_words(one, word); });
 }

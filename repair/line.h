@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -27,7 +28,7 @@ inline constexpr std::uint8_t all = programs | macro | test;
 } // namespace in
 
 /// Whether a word is one of them, in capitals or not.
-bool has_word(const std::vector<std::string_view>& words, std::string_view word);
+bool has_word(std::span<const std::string_view> words, std::string_view word);
 
 /// Whether a word turns what follows into its opposite, in any of the languages.
 bool negates(const Token& token);

@@ -11,11 +11,12 @@
 
 namespace orb::repair {
 
-/// One way to read a line: it changes tokens and nothing else.
+/// One way to read a line: it changes the tokens, and says in `incomplete` where it put in what
+/// nobody typed.
 struct Rewrite {
   std::uint8_t languages; ///< a bit for each Language
   void (*apply)(Line&);
-  std::string_view before; ///< an example in the first of the languages, which is its test
+  std::string_view before; ///< an example in the first of these languages; a test runs it
   std::string_view after;
 };
 

@@ -2,7 +2,6 @@
 
 #include "base/fixes.h"
 #include "base/text/text.h"
-#include "repair/idioms.h"
 #include "repair/line.h"
 #include "repair/scenery.h"
 #include "repair/texts.h"

@@ -1,7 +1,6 @@
 #include "repair/quotes.h"
 
 #include "base/text/text.h"
-#include "repair/normalise.h"
 
 #include <algorithm>
 #include <optional>

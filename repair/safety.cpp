@@ -4,6 +4,7 @@
 #include "base/text/text.h"
 #include "repair/colours.h"
 #include "repair/idioms.h"
+#include "repair/line.h"
 #include "repair/scenery.h"
 #include "repair/units.h"
 
@@ -32,11 +33,6 @@ const Token& nothing() {
   return none;
 }
 
-bool has(std::span<const std::string_view> words, std::string_view word) {
-  return std::any_of(words.begin(), words.end(),
-                     [&](std::string_view one) { return equal_words(one, word); });
-}
-
 /// A place in the line, the place in what is written that it has to agree with, and all around.
 struct Place {
   const Tokens& said;
@@ -60,7 +56,7 @@ struct Place {
     return reading.language == Language::Basic || reading.language == Language::Structured;
   }
 
-  bool is_word(std::string_view word) const { return has(reading.words, word); }
+  bool is_word(std::string_view word) const { return has_word(reading.words, word); }
   bool is_name(std::string_view word) const {
     return std::any_of(reading.names.begin(), reading.names.end(),
                        [&](const std::string& one) { return one == word; }) ||

@@ -1,14 +1,10 @@
 #include "repair/normalise.h"
 
 #include "base/text/text.h"
-#include "repair/colours.h"
-#include "repair/units.h"
 
 #include <algorithm>
-#include <cmath>
 #include <string>
 #include <string_view>
-#include <vector>
 
 // Quotes, brackets, operators and numbers as other languages write them.
 

@@ -27,6 +27,7 @@ constexpr std::size_t few_states = 40;
 constexpr int most_candidates = 1000; // of one line, by changes
 constexpr int deepest = 6;            // rows in one line
 constexpr int surely = 6;             // the cost of one letter of a word
+constexpr int slip = 9;               // the most that one slip of the hand costs
 constexpr int any_cost = 1000;
 constexpr int clearly = 4; // by so much the best change is cheaper than the next
 
@@ -361,7 +362,6 @@ private:
   }
 
   void twice(std::span<const Candidate> first) {
-    constexpr int slip = 9;
     for (const auto& one : first) {
       if (one.cost > slip || tried_ > most_candidates)
         return;
@@ -375,7 +375,6 @@ private:
   }
 
   void consider(const Candidate& one) {
-    constexpr int slip = 9;
     if (!good_.empty() && one.cost > good_.front().first.cost + clearly)
       return;
     if (++tried_ > most_candidates || good_.size() > 1 ||

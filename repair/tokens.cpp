@@ -11,10 +11,6 @@ namespace {
 bool is_part(char c) {
   return is_letter(c) || is_digit(c) || c == '_' || static_cast<unsigned char>(c) >= 0xC3;
 }
-bool is_tail(char c) {
-  return (static_cast<unsigned char>(c) & 0xC0) == 0x80;
-}
-
 struct Written {
   std::string_view text;
   std::string_view means;
@@ -296,7 +292,7 @@ private:
     constexpr std::string_view until = "jusqu'"; // the one word with such a sign
     if (text_.substr(begin).starts_with(until))
       at_ += until.size() - 1;
-    while (at_ < text_.size() && (is_part(text_[at_]) || is_tail(text_[at_])) && !is_drawn() &&
+    while (at_ < text_.size() && (is_part(text_[at_]) || is_utf8_tail(text_[at_])) && !is_drawn() &&
            special_blank() == 0)
       ++at_;
     add(tokens, Token::Kind::Word, std::string(text_.substr(begin, at_ - begin)));

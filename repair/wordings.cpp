@@ -2,7 +2,7 @@
 
 #include "base/text/suggest.h"
 #include "base/text/text.h"
-#include "repair/arrange.h"
+#include "repair/called.h"
 #include "repair/colours.h"
 #include "repair/inflections.h"
 #include "repair/units.h"

@@ -40,16 +40,6 @@ struct Program {
   std::string meaning;
 };
 
-Lines lines_of(const std::string& text) {
-  Lines lines;
-  for (std::size_t at = 0; at < text.size();) {
-    const auto end = std::min(text.find('\n', at), text.size());
-    lines.push_back(text.substr(at, end - at));
-    at = end + 1;
-  }
-  return lines;
-}
-
 std::vector<Program> programs(const fs::path& root) {
   std::vector<fs::path> paths;
   for (const auto& entry : fs::recursive_directory_iterator(root / "examples"))
@@ -67,7 +57,7 @@ std::vector<Program> programs(const fs::path& root) {
     Program one;
     one.name = path.filename().string();
     one.language = static_cast<Language>(ending - std::begin(slips::endings));
-    one.lines = lines_of({std::istreambuf_iterator<char>(in), {}});
+    one.lines = slips::split({std::istreambuf_iterator<char>(in), {}});
     one.meaning = slips::meaning(one.language, one.lines);
     if (!one.meaning.empty()) // what includes other files has none
       all.push_back(std::move(one));
@@ -226,7 +216,7 @@ public:
     };
     const auto before = errors(text);
     const auto fixed = orb::fix_all(text, check);
-    const auto lines = lines_of(fixed.text);
+    const auto lines = slips::split(fixed.text);
     const auto fail = [&](const char* why) {
       ++count.wrong;
       std::cerr << fmt::format("{}: {}:{}\n  meant   {}\n  mutant  {}\n", why, program.name, at + 1,

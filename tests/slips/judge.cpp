@@ -51,16 +51,6 @@ std::string apply(const std::string& text, const orb::Fix& fix) {
   return out;
 }
 
-Lines split(const std::string& text) {
-  Lines lines;
-  for (std::size_t at = 0; at < text.size();) {
-    const auto end = std::min(text.find('\n', at), text.size());
-    lines.push_back(text.substr(at, end - at));
-    at = end + 1;
-  }
-  return lines;
-}
-
 /// A line as it is offered, in the place of the mistaken one.
 Lines placed(const Lines& program, std::size_t at, std::string line) {
   auto changed = program;
@@ -92,6 +82,16 @@ std::vector<Diagnostic> findings(Language language, const std::string& text) {
   }
   orb::sort_by_place(found);
   return found;
+}
+
+Lines split(const std::string& text) {
+  Lines lines;
+  for (std::size_t at = 0; at < text.size();) {
+    const auto end = std::min(text.find('\n', at), text.size());
+    lines.push_back(text.substr(at, end - at));
+    at = end + 1;
+  }
+  return lines;
 }
 
 std::string join(const Lines& lines) {

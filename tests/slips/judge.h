@@ -58,5 +58,6 @@ std::vector<orb::Diagnostic> findings(Language language, const std::string& text
 std::string meaning(Language language, const Lines& program);
 
 std::string join(const Lines& lines);
+Lines split(const std::string& text);
 
 } // namespace slips
