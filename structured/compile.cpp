@@ -6,9 +6,11 @@
 #include "repair/repair.h"
 #include "spec/limits.h"
 #include "structured/emit/choices.h"
-#include "structured/emit/relay.h"
+#include "structured/emit/findings.h"
+#include "structured/emit/size.h"
 #include "structured/lower/lower.h"
 #include "structured/lower/plan.h"
+#include "structured/lower/source_lines.h"
 #include "structured/meaning/check.h"
 #include "structured/optimise/optimise.h"
 #include "structured/text/blocks.h"
@@ -221,6 +223,8 @@ void compile(Compiled& compiled, const compiler::Target& target,
   compiled.code = lower(compiled.program, compiled.names, decided);
   for (const auto& name : kept)
     keep(compiled, name);
+  const auto lines = compiled.code.too_large ? compiler::Program{}
+                                             : source_lines(compiled.program, compiled.code);
   optimise(compiled.code, shape);
   if (compiled.code.too_large) {
     report_too_large(compiled, target);
@@ -237,7 +241,10 @@ void compile(Compiled& compiled, const compiler::Target& target,
   write_choices(compiled.code, compiled.letters, compiled.program);
   compiled.robot = print(compiled.program, compiled.code, compiled.letters, {});
   const auto own = compiled.program.diagnostics.size();
-  relay_findings(compiled, target);
+  compiled.lines = compiler::parse(compiled.robot.text);
+  compiled.image = compiler::build_image(compiled.lines, compiler::Packing::Packed);
+  find_meaning(compiled.program, compiled.names, lines, target);
+  check_size(compiled, target);
   // What comes of a slip in a name waits until that is mended.
   auto& all = compiled.program.diagnostics;
   if (std::any_of(all.begin(), all.end(), is_slip))

@@ -10,8 +10,8 @@ constexpr std::uint32_t most_lines = 2048; ///< no area of the robot holds as ma
 constexpr std::size_t most_routines = 64;
 
 /// Whether a bit of one of two joined letters is one of the result.
-std::uint32_t joined_bit(std::uint32_t a, std::uint32_t b, const Range& left, const Range& right,
-                         const Range& joined, std::uint32_t mask) {
+LetterSet joined_bit(LetterSet a, LetterSet b, const Range& left, const Range& right,
+                     const Range& joined, LetterSet mask) {
   const bool from_left = (a & mask) != 0;
   const bool from_right = (b & mask) != 0;
   if ((from_left && from_right) || (from_left && left == joined) || (from_right && right == joined))
@@ -44,7 +44,7 @@ bool join_letter(Letters& into, const Letters& from, std::size_t letter) {
 
 } // namespace
 
-bool join_into(Letters& into, const Letters& from, std::uint32_t letters) {
+bool join_into(Letters& into, const Letters& from, LetterSet letters) {
   bool changed = false;
   for (; letters != 0; letters &= letters - 1)
     if (const auto letter = static_cast<std::size_t>(std::countr_zero(letters));
@@ -98,7 +98,7 @@ void LetterFlow::find_routines() {
     for (const auto& routine : routines_)
       if (routine.entry == entry)
         return routine.written;
-    return std::uint32_t{0};
+    return LetterSet{0};
   };
   for (bool changed = true; changed;) { // what they write together with those that they call
     changed = false;
@@ -131,11 +131,11 @@ void LetterFlow::read_routine(Routine& routine) {
   }
 }
 
-std::uint32_t LetterFlow::written_by(std::uint32_t code) const {
-  std::uint32_t written = 0;
+LetterSet LetterFlow::written_by(std::uint32_t code) const {
+  LetterSet written = 0;
   for (const auto& statement : program_.whole(program_.statements[flow_.code[code].statement])) {
     if (statement.error)
-      return ~std::uint32_t{0};
+      return ~LetterSet{0};
     for (const auto& item : program_.items_of(statement))
       if (item.kind == ItemKind::Letter)
         written |= bit(item.value);
@@ -185,10 +185,10 @@ bool LetterFlow::grow(Letters& into, const Letters& from, std::uint32_t visits) 
   constexpr std::uint32_t patience = 2;
   constexpr std::uint32_t limit = 24;
   const auto before = into;
-  if (!join_into(into, from, all_letters))
+  if (!join_into(into, from, letters_of(program_)))
     return std::pair{before.exact, before.dense} != std::pair{into.exact, into.dense};
   if (visits > patience)
-    for (std::size_t i = 0; i < spec::letter_count; ++i) {
+    for (std::size_t i = 0; i < program_.letters; ++i) {
       auto& range = into.ranges[i];
       if (range == before.ranges[i])
         continue;
@@ -210,7 +210,7 @@ bool LetterFlow::call(std::uint32_t entry, std::uint32_t from, Letters& letters)
     routine->callers.push_back(block);
   if (!routine->returned)
     return false;
-  for (std::size_t i = 0; i < spec::letter_count; ++i)
+  for (std::size_t i = 0; i < program_.letters; ++i)
     if ((routine->written & bit(i)) != 0)
       letters.ranges[i] = routine->letters.ranges[i];
   letters.exact = (letters.exact & ~routine->written) | (routine->letters.exact & routine->written);

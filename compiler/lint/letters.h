@@ -11,32 +11,37 @@
 
 namespace orb::compiler {
 
-/// The bit of a letter in a set of them.
-constexpr std::uint32_t bit(std::size_t letter) {
-  return std::uint32_t{1} << letter;
+/// A set of letters, a bit each.
+using LetterSet = std::uint64_t;
+static_assert(most_letters <= 64);
+
+/// The set of one letter.
+constexpr LetterSet bit(std::size_t letter) {
+  return LetterSet{1} << letter;
 }
 
-/// The set of A to Y.
-inline constexpr std::uint32_t all_letters = bit(spec::letter_count) - 1;
+/// The set of all letters of a program.
+inline LetterSet letters_of(const Program& program) {
+  return program.letters == most_letters ? ~LetterSet{0} : bit(program.letters) - 1;
+}
 
-/// What is known of A to Y at a place of a program.
+/// What is known of the letters at a place of a program.
 struct Letters {
-  std::array<Range, spec::letter_count> ranges{};
-  // Bits by letter:
-  std::uint32_t exact = 0; ///< both ends of the range are values that it takes
-  std::uint32_t dense = 0; ///< and so are those between, as of a sensor
+  std::array<Range, most_letters> ranges{};
+  LetterSet exact = 0; ///< of these both ends of the range are values that they take
+  LetterSet dense = 0; ///< and of these all between, as of a sensor
 
   static Letters zero() {
     Letters letters;
     letters.ranges.fill(Range::only(0));
-    letters.exact = all_letters;
+    letters.exact = ~LetterSet{0};
     return letters;
   }
 };
 
 /// Joins `from` into `into`, of these letters: the others are known to be the same. Whether that
 /// changed a range.
-bool join_into(Letters& into, const Letters& from, std::uint32_t letters);
+bool join_into(Letters& into, const Letters& from, LetterSet letters);
 
 /// The lines of a program at which what is known of its letters is kept, and what is known there
 /// after all ways have been followed. The one who follows says what lines do.
@@ -73,7 +78,7 @@ private:
   };
   struct Routine {
     std::uint32_t entry = 0;
-    std::uint32_t written = 0; ///< letters, as bits
+    LetterSet written = 0;
     bool returned = false;
     Letters letters;                    ///< at its returns
     std::uint32_t growths = 0;          ///< how often they became more
@@ -85,7 +90,7 @@ private:
   void keep(std::uint32_t code);
   void find_routines();
   void read_routine(Routine& routine);
-  std::uint32_t written_by(std::uint32_t code) const;
+  LetterSet written_by(std::uint32_t code) const;
   void find_landmarks();
   void wait(std::uint32_t block);
   /// Joins what is known on another way, the rougher the more often; whether that is news.

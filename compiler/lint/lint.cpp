@@ -104,6 +104,16 @@ void place(const Program& program, std::vector<Diagnostic>& findings) {
   }
 }
 
+/// What a program whose jumps are all known does.
+void lint_ways(const Program& program, const Flow& flow, Findings& findings) {
+  lint_flow(program, flow, findings);
+  lint_intent(program, flow, findings);
+  lint_units(program, flow, findings);
+  lint_waits(program, flow, findings);
+  lint_sums(program, flow, findings);
+  lint_certain(program, flow, findings);
+}
+
 } // namespace
 
 void add_note(Diagnostic& diagnostic, Span where, Message what) {
@@ -132,14 +142,11 @@ std::vector<Diagnostic> lint(const Program& program, const Target& target) {
       std::none_of(program.faults.begin(), program.faults.end(),
                    [&](const Fault& fault) { return may_steer(program, fault); });
   lint_text(program, flow, target, findings);
+  lint_age(program, target, findings);
   lint_values(program, flow, target, jumps_known ? Jumps::Known : Jumps::Unknown, findings);
   if (jumps_known) {
-    lint_flow(program, flow, findings);
-    lint_intent(program, flow, findings);
-    lint_units(program, flow, findings);
-    lint_waits(program, flow, findings);
-    lint_sums(program, flow, findings);
-    lint_certain(program, flow, findings);
+    lint_loops(program, flow, findings);
+    lint_ways(program, flow, findings);
   }
   if (target.robot)
     lint_robot(program, *target.robot, findings);
@@ -150,6 +157,18 @@ std::vector<Diagnostic> lint(const Program& program, const Target& target) {
   place(program, all);
   sort_by_place(all);
   return all;
+}
+
+std::vector<Diagnostic> lint_meaning(const Program& program, const Target& target) {
+  Findings findings;
+  const auto flow = read_flow(program);
+  lint_age(program, target, findings);
+  lint_values(program, flow, target, Jumps::Known, findings);
+  lint_ways(program, flow, findings);
+  if (target.robot)
+    lint_robot(program, *target.robot, findings);
+  sort_by_place(findings.all());
+  return std::move(findings.all());
 }
 
 } // namespace orb::compiler

@@ -32,6 +32,10 @@ std::int32_t area_bytes(const Target& target);
 /// that is fine. What a comment `' orb: allow RULE` silences is left out.
 std::vector<Diagnostic> lint(const Program& program, const Target& target);
 
+/// Of these what the program does that cannot work or can hardly be meant, however it is written:
+/// what is said of a structured program, too, once it is lines whose words are its own.
+std::vector<Diagnostic> lint_meaning(const Program& program, const Target& target);
+
 /// Of these only what the robot does not have.
 std::vector<Diagnostic> robot_findings(const Program& program, spec::Robot robot);
 

@@ -110,7 +110,7 @@ private:
   }
 
   void check_index(Span span) {
-    const auto& index = now_.ranges[spec::letter_count - 1];
+    const auto& index = now_.ranges[index_letter];
     const auto most = spec::value_of(spec::Limit::IndexedVariables);
     if (index.misses(1, most))
       stop(span, texts::UsedWhileIndexBecomes('Z', 'Y', shown(index), 1, most));
@@ -277,7 +277,7 @@ private:
     now_ = before;
     if (no != nullptr)
       obey(*no);
-    join_into(now_, after, all_letters);
+    join_into(now_, after, letters_of(program_));
     certain_ = true;
     return at + 1;
   }

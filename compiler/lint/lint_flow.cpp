@@ -21,7 +21,6 @@ public:
     open_.reserve(flow_.jumps.size() + 1);
     mark_reached();
     check_unreachable();
-    lint_loops(program_, flow_, findings_);
     if (!returns().empty() || has_call())
       check_subroutines();
     check_busy_loops();

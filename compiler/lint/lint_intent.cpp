@@ -269,6 +269,7 @@ private:
 
   /// Carries along every way whether the ball drives.
   void check_motion() {
+    find_settled();
     motion_.assign(size_, {});
     reach(0, {Motion::Kind::Rests});
     while (!waiting_.empty()) {
@@ -312,6 +313,30 @@ private:
       reach(at + 1, calls ? Motion{Motion::Kind::Unknown} : after);
   }
 
+  /// The number that is written there, or the only one that its letter is ever set to.
+  std::optional<std::int32_t> number_of(const Item& item) const {
+    const auto letter = letter_in(program_, item);
+    return letter ? settled_[*letter] : number_in(program_, item);
+  }
+
+  /// Finds letters that are set once, to a number, on the straight way on which a program begins.
+  void find_settled() {
+    std::array<std::uint32_t, most_letters> sets{};
+    for (const auto& item : program_.items)
+      if (item.kind == ItemKind::Letter)
+        ++sets[item.value];
+    for (std::uint32_t i = 0; i < size_ && flow_.code[i].falls; ++i) {
+      const auto& statement = statement_of(i);
+      if (statement.error || !flow_.jumps_of(flow_.code[i]).empty() || flow_.code[i].loops)
+        return;
+      if (statement.kind != Statement::Let)
+        continue;
+      const auto let = program_.as<LetView>(statement);
+      if (let.variable.kind == ItemKind::Letter && sets[let.variable.value] == 1)
+        settled_[let.variable.value] = number_in(program_, let.expression);
+    }
+  }
+
   static Motion unknown() { return {Motion::Kind::Unknown}; }
 
   Motion step(const StatementNode& statement, Motion before, std::uint32_t at) const {
@@ -326,8 +351,8 @@ private:
     if (statement.kind != Statement::Goroll)
       return before;
     const auto items = program_.items_of(statement);
-    const auto speed = number_in(program_, items[1]);
-    const auto go = items.size() < 3 ? speed : number_in(program_, items[2]);
+    const auto speed = number_of(items[1]);
+    const auto go = items.size() < 3 ? speed : number_of(items[2]);
     if (speed && go && *speed > 0 && *go > 0)
       return {Motion::Kind::Drives, at};
     if (go == 0 ||
@@ -451,8 +476,8 @@ private:
   }
 
   /// The letters to which a line adds.
-  std::uint32_t growing_letters() const {
-    std::uint32_t grown = 0;
+  LetterSet growing_letters() const {
+    LetterSet grown = 0;
     for (const auto& place : flow_.all(Statement::Let))
       if (flow_.is_line(place))
         if (const auto let = program_.as<LetView>(program_.statements[place.statement]);
@@ -477,7 +502,7 @@ private:
   };
 
   /// Where one of these letters is given to a statement that is a line.
-  std::vector<Given> places_given(std::uint32_t letters) const {
+  std::vector<Given> places_given(LetterSet letters) const {
     std::vector<Given> all;
     for (std::uint32_t i = 0; i < size_; ++i) {
       const auto& statement = statement_of(i);
@@ -499,7 +524,7 @@ private:
     if (letters == 0)
       return;
     const auto all_given = places_given(letters);
-    std::array<Growth, spec::letter_count> growth;
+    std::array<Growth, most_letters> growth;
     for (std::uint32_t i = 0; i < size_; ++i) {
       const auto whole = program_.whole(program_.statements[flow_.code[i].statement]);
       for (const auto& statement : whole)
@@ -526,7 +551,7 @@ private:
   }
 
   void read_growth(const StatementNode& statement, std::uint32_t code, bool in_if,
-                   std::array<Growth, spec::letter_count>& growth) const {
+                   std::array<Growth, most_letters>& growth) const {
     for (const auto& item : program_.items_of(statement)) {
       if (item.kind == ItemKind::Letter)
         set_growth(statement, item.value, code, in_if, growth);
@@ -538,7 +563,7 @@ private:
   }
 
   void set_growth(const StatementNode& statement, std::uint32_t letter, std::uint32_t code,
-                  bool in_if, std::array<Growth, spec::letter_count>& growth) const {
+                  bool in_if, std::array<Growth, most_letters>& growth) const {
     auto& grown = growth[letter];
     if (statement.kind != Statement::Let || in_if) {
       grown.bounded = true;
@@ -582,6 +607,7 @@ private:
   const Flow& flow_;
   Findings& findings_;
   std::uint32_t size_;
+  std::array<std::optional<std::int32_t>, most_letters> settled_{}; ///< what letters always are
   std::vector<Motion> motion_; ///< by line of code, before it runs
   Motion end_;                 ///< below the last line
   std::vector<std::uint32_t> waiting_;

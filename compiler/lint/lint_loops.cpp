@@ -13,7 +13,7 @@
 namespace orb::compiler {
 namespace {
 
-constexpr std::uint32_t indexed = spec::letter_count; // Z in masks and stacks of loop variables
+constexpr std::uint32_t indexed = most_letters - 1; // Z in masks and stacks of loop variables
 
 std::uint32_t variable_of(const Item& item) {
   return item.kind == ItemKind::Letter ? item.value : indexed;
@@ -514,8 +514,8 @@ private:
   const Flow& flow_;
   Findings& findings_;
   std::uint32_t size_;
-  std::uint32_t set_ = 0;            ///< letters that some `for` counts in
-  std::uint32_t stepped_ = 0;        ///< letters that some `next` steps
+  LetterSet set_ = 0;                ///< letters that some `for` counts in
+  LetterSet stepped_ = 0;            ///< letters that some `next` steps
   std::vector<Part> parts_;          ///< in the order of the text
   std::vector<std::uint32_t> ahead_; ///< by line of code: the first part from there on
   std::vector<Pair> pairs_;

@@ -33,6 +33,9 @@ void lint_missing_numbers(const Program& program, std::span<const Fault* const> 
 /// targets, how expressions are written.
 void lint_text(const Program& program, const Flow& flow, const Target& target, Findings& findings);
 
+/// What the firmware that the program is meant for does not have yet.
+void lint_age(const Program& program, const Target& target, Findings& findings);
+
 /// Whether all jumps of a program could be read; otherwise values hold to the next line at most.
 enum class Jumps : std::uint8_t { Known, Unknown };
 
@@ -40,7 +43,7 @@ enum class Jumps : std::uint8_t { Known, Unknown };
 void lint_values(const Program& program, const Flow& flow, const Target& target, Jumps jumps,
                  Findings& findings);
 
-/// The rules about loops: how `for` and `next` meet on every way. Part of `lint_flow`.
+/// The rules about loops: how `for` and `next` meet on every way.
 void lint_loops(const Program& program, const Flow& flow, Findings& findings);
 
 /// The rules about jumps, loops and subroutines.

@@ -253,7 +253,7 @@ private:
   const Program& program_;
   const Flow& flow_;
   Findings& findings_;
-  std::array<Product, spec::letter_count> products_{};
+  std::array<Product, most_letters> products_{};
 };
 
 } // namespace

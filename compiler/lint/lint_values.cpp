@@ -10,7 +10,7 @@ void ValuesPass::run() {
 
 bool ValuesPass::may_say_more() {
   following_ = true; // computes anew
-  for (std::uint32_t i = 0; i < letters; ++i)
+  for (std::uint32_t i = 0; i < program_.letters; ++i)
     now_.ranges[i] = given_[i].value_or(Range{});
   const auto most = spec::value_of(spec::Limit::IndexedVariables);
   const auto& index = given_[index_letter];

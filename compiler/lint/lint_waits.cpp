@@ -349,7 +349,7 @@ private:
     const auto& setting = settings_[*letter];
     if (setting.count != 1 || (first <= setting.code && setting.code <= last))
       return;
-    const auto& copy = statement_of(setting.code);
+    const auto& copy = original_of(statement_of(setting.code));
     const auto jumps = flow_.jumps_of(flow_.code[test_code]);
     if (copy.kind != Statement::Let || jumps.empty())
       return;
@@ -365,6 +365,19 @@ private:
                         program_.text_of({condition.first.left.span.end,
                                           program_.statements[test->then_branch].span.end}))));
     add_note(d, test->span, texts::LoopTestsCopyHere());
+  }
+
+  /// Of a copy of a copy the first one, where each is set once.
+  const StatementNode& original_of(const StatementNode& copy) const {
+    constexpr int most = 4; // a copy of itself has no first one
+    const auto* at = &copy;
+    for (int i = 0; i < most && !at->error && at->kind == Statement::Let; ++i) {
+      const auto letter = letter_in(program_, program_.as<LetView>(*at).expression);
+      if (!letter || settings_[*letter].count != 1)
+        break;
+      at = &statement_of(settings_[*letter].code);
+    }
+    return *at;
   }
 
   /// A loop that asks a letter which is a number from above it, and stays that.
@@ -385,7 +398,7 @@ private:
   const Flow& flow_;
   Findings& findings_;
   std::uint32_t size_;
-  std::array<Setting, spec::letter_count> settings_{};
+  std::array<Setting, most_letters> settings_{};
 };
 
 } // namespace

@@ -53,13 +53,6 @@ private:
 
   void check(const StatementNode& statement);
 
-  /// Before August 2012 it had two values.
-  void check_age_of_goroll(const StatementNode& statement);
-
-  void check_age_of_timer(const LetView& let);
-
-  void add_newer(Span span, std::string_view word, spec::BasicVersion since);
-
   void check_let(const StatementNode& statement);
 
   void check_if(const StatementNode& statement);
@@ -105,8 +98,7 @@ private:
   bool is_remarkable(const Node& node) const {
     if (node.kind != NodeKind::System)
       return node.kind > NodeKind::Binary || node.overflow;
-    const auto& row = spec::variables[node.what];
-    return row.since > target_.version || !row.old_word.empty();
+    return !spec::variables[node.what].old_word.empty();
   }
 
   void check_node(const Node& node);

@@ -14,10 +14,6 @@ void TextPass::check_branch(const StatementNode& statement) {
 
 void TextPass::check(const StatementNode& statement) {
   const auto& row = spec::info(statement.kind);
-  if (statement.kind == spec::Statement::Goroll)
-    check_age_of_goroll(statement);
-  else if (row.since > target_.version)
-    add_newer(statement.word, row.word, row.since);
   const bool wordy = statement.word.size() > 0 && statement.spelling != Spelling::QuestionMark;
   if (wordy && statement.word.end < statement.span.end)
     check_side(statement.word.end, statement.word.end, row.word);
@@ -36,39 +32,7 @@ void TextPass::check(const StatementNode& statement) {
   }
 }
 
-void TextPass::check_age_of_goroll(const StatementNode& statement) {
-  const auto& row = spec::info(statement.kind);
-  const auto values = program_.items_of(statement);
-  if (row.since <= target_.version || values.size() < row.parameters().size())
-    return;
-  add_newer(statement.word, row.word, row.since);
-  findings_.all().back().help = texts::TookTwoValues(
-      program_.text_of({statement.word.begin, values[values.size() - 2].span.end}));
-}
-
-void TextPass::check_age_of_timer(const LetView& let) {
-  const auto& row = spec::info(spec::BasicGrowth::TimersCountUp);
-  if (row.since <= target_.version || let.variable.kind != ItemKind::System ||
-      !is_timer(static_cast<spec::Variable>(let.variable.value)))
-    return;
-  const auto& value = program_.nodes[let.expression.value];
-  if (value.kind != NodeKind::Number || value.value != 0)
-    return;
-  auto& d = findings_.add(
-      rules::NewerThanTarget, let.variable.span,
-      texts::TimersCountUpSince(spec::info(row.since).text, spec::info(target_.version).text),
-      texts::SetTimerAndLook());
-  d.severity = Severity::Warning;
-}
-
-void TextPass::add_newer(Span span, std::string_view word, spec::BasicVersion since) {
-  findings_.add(
-      rules::NewerThanTarget, span,
-      texts::NeedsVersion(word, spec::info(since).text, spec::info(target_.version).text));
-}
-
 void TextPass::check_let(const StatementNode& statement) {
-  check_age_of_timer(program_.as<LetView>(statement));
   if (statement.spelling != Spelling::Let)
     return;
   auto& d = findings_.add(rules::UndocumentedLet, statement.word, texts::LetNotDocumented(),
@@ -348,10 +312,6 @@ void TextPass::check_system(const Node& node) {
                             texts::WasRenamed(row.old_word, row.word, spec::info(row.since).text),
                             texts::Write(row.word));
     d.fix = single_fix(d.help, node.span, std::string(row.word));
-  } else if (!old_name && row.since > target_.version) {
-    add_newer(node.span, row.word, row.since);
-    if (!row.old_word.empty())
-      findings_.all().back().help = texts::InThatVersionWrite(row.old_word);
   }
 }
 

@@ -175,6 +175,11 @@ void ValuesPass::check_arguments(const StatementNode& statement) {
     data_.left = conditional_ ? DataSet::unknown : data_.size;
 }
 
+/// How a program writes the comma between two values: `, ` or `,`.
+std::string_view ValuesPass::comma_of(std::span<const Item> arguments) const {
+  return program_.text_of({arguments[0].span.end, arguments[1].span.begin});
+}
+
 /// A speed that only a heading can be, and a heading that a speed can be.
 bool ValuesPass::check_swapped(std::span<const Item> arguments) {
   const auto parameters = spec::info(spec::Statement::Goroll).parameters();
@@ -189,7 +194,8 @@ bool ValuesPass::check_swapped(std::span<const Item> arguments) {
       rules::ValueOutOfRange, arguments[1].span,
       texts::FoundValue(allowed_values("goroll", parameters[1]), shown(speed)),
       texts::WriteBecause(
-          fmt::format("goroll {},{}{}", speed.lo, heading.lo,
+          fmt::format("goroll {}{}{}{}", program_.text_of(arguments[1].span), comma_of(arguments),
+                      program_.text_of(arguments[0].span),
                       program_.text_of({arguments[1].span.end, arguments.back().span.end})),
           texts::HeadingComesFirst()));
   d.fix = Fix{texts::SwapThem(),
@@ -210,7 +216,7 @@ bool ValuesPass::check_backward(const StatementNode& statement) {
   if (!back)
     return false;
   const auto line =
-      fmt::format("goroll {},{}{}", *back, -speed.lo,
+      fmt::format("goroll {}{}{}{}", *back, comma_of(arguments), -speed.lo,
                   program_.text_of({arguments[1].span.end, arguments.back().span.end}));
   auto& d = findings_.add(rules::ValueOutOfRange, arguments[1].span,
                           texts::FoundValue(allowed_values("goroll", parameters[1]), shown(speed)),
@@ -224,7 +230,8 @@ void ValuesPass::add_missing_go(const StatementNode& statement, const Item& last
   auto& d = findings_.add(rules::MissingGo, statement.span, texts::ThirdIsGo());
   const bool brakes = range_of(last) == Range::only(0);
   d.fix = single_fix(texts::AddGoValue(), last.span,
-                     fmt::format("{},{}", program_.text_of(last.span), brakes ? 0 : 1),
+                     fmt::format("{}{}{}", program_.text_of(last.span),
+                                 comma_of(program_.items_of(statement)), brakes ? 0 : 1),
                      Safety::Unsafe); // which of the three is missing nobody knows
 }
 

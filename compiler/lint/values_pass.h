@@ -14,9 +14,6 @@
 
 namespace orb::compiler {
 
-inline constexpr auto letters = spec::letter_count;
-inline constexpr std::uint32_t index_letter = letters - 1; // Y
-
 /// By variable, whether it takes all its values: directions, switches and what clients send; a ball
 /// is never as fast as its sensors could tell.
 inline constexpr auto reaches_ends = [] {
@@ -122,7 +119,7 @@ private:
 
   void set_letter(std::uint32_t index, Range range) { set_letter(index, range, 0, 0); }
   /// `exact` and `dense`: 1 or 0.
-  void set_letter(std::uint32_t index, Range range, std::uint32_t exact, std::uint32_t dense);
+  void set_letter(std::uint32_t index, Range range, LetterSet exact, LetterSet dense);
 
   // ---- ways
 
@@ -203,6 +200,7 @@ private:
 
   void check_arguments(const StatementNode& statement);
 
+  std::string_view comma_of(std::span<const Item> arguments) const;
   bool check_swapped(std::span<const Item> arguments);
   bool check_backward(const StatementNode& statement);
   void add_missing_go(const StatementNode& statement, const Item& last);
@@ -279,33 +277,34 @@ private:
   const Flow& flow_;
   const Target& target_;
   Findings& findings_;
-  std::array<Letter, letters> letters_{};
+  std::array<Letter, most_letters> letters_{};
   std::vector<Known> known_; ///< by node
 
   // what is known on the way
   Letters now_;
-  std::uint32_t set_ = 0; ///< letters that something sets
-  Letters unknown_;       ///< where nothing is known but that letters are 0 which nothing sets
+  LetterSet set_ = 0; ///< letters that something sets
+  Letters unknown_;   ///< where nothing is known but that letters are 0 which nothing sets
   LetterFlow ways_;
   std::vector<Loop> loops_; ///< that have been entered
   std::vector<Doubt> doubts_;
   std::vector<Question> questions_;
-  bool index_doubt_ = false;                          ///< `Z` is used while `Y` is not known
-  std::array<std::optional<Range>, letters> given_{}; ///< what is known by itself, over all lines
-  Range data_range_;                                  ///< of the values of all `data`
-  std::uint32_t block_ = 0;                           ///< the line from which `now_` is followed
-  std::uint32_t tested_ = 0; ///< letters that the condition of this line narrows
-  std::uint32_t moved_ = 0;  ///< letters that became something else in a branch of this line
+  bool index_doubt_ = false; ///< `Z` is used while `Y` is not known
+  std::array<std::optional<Range>, most_letters>
+      given_{};             ///< what is known by itself, over all lines
+  Range data_range_;        ///< of the values of all `data`
+  std::uint32_t block_ = 0; ///< the line from which `now_` is followed
+  LetterSet tested_ = 0;    ///< letters that the condition of this line narrows
+  LetterSet moved_ = 0;     ///< letters that became something else in a branch of this line
   bool following_ = false;
   bool followed_ = false;
   std::optional<std::int32_t> index_begins_; ///< where the loop around counts in `Y`: from there
 
   DataSet data_;
-  std::uint32_t cleared_ = 0;         ///< variables that are 0 because they have been read
-  std::uint32_t cleared_on_line_ = 0; ///< the same, by this line
-  std::uint32_t counting_ = 0;        ///< letters of loops that reach their ends for certain
-  std::uint32_t line_ = 0;            ///< that is looked at
-  bool conditional_ = false;          ///< in a branch
+  LetterSet cleared_ = 0;         ///< variables that are 0 because they have been read
+  LetterSet cleared_on_line_ = 0; ///< the same, by this line
+  LetterSet counting_ = 0;        ///< letters of loops that reach their ends for certain
+  std::uint32_t line_ = 0;        ///< that is looked at
+  bool conditional_ = false;      ///< in a branch
 
   bool indexed_used_ = false;
   bool in_order_ = true; ///< nothing above leads away and back, or past lines

@@ -38,7 +38,7 @@ void ValuesPass::collect_letters() {
       collect_set(program_.statements[place.statement]);
   unknown_ = Letters::zero();
   unknown_.exact &= ~set_;
-  for (std::uint32_t i = 0; i < letters; ++i)
+  for (std::uint32_t i = 0; i < program_.letters; ++i)
     if ((set_ & bit(i)) != 0)
       unknown_.ranges[i] = {};
 }
@@ -76,7 +76,7 @@ bool ValuesPass::reads_clearing(const Item& expression) const {
 
 void ValuesPass::check_letters() {
   const bool silent = !program_.faults.empty(); // a line that does not parse may hold the rest
-  for (std::uint32_t i = 0; i < letters && !silent; ++i) {
+  for (std::uint32_t i = 0; i < program_.letters && !silent; ++i) {
     const auto& letter = letters_[i];
     const bool used = letter.first_used != nullptr;
     const bool set = letter.first_set != nullptr;
@@ -126,8 +126,7 @@ void ValuesPass::forget_letters() {
     index_begins_.reset();
 }
 
-void ValuesPass::set_letter(std::uint32_t index, Range range, std::uint32_t exact,
-                            std::uint32_t dense) {
+void ValuesPass::set_letter(std::uint32_t index, Range range, LetterSet exact, LetterSet dense) {
   moved_ |= bit(index);
   now_.ranges[index] = range;
   now_.exact = (now_.exact & ~bit(index)) | exact << index;
@@ -309,7 +308,7 @@ void ValuesPass::set(const LetView& let) {
   const auto& root = program_.nodes[let.expression.value];
   const bool spread = root.kind == NodeKind::Binary &&
                       static_cast<spec::Operator>(root.what) == spec::Operator::Multiply;
-  const std::uint32_t exact = known_[let.expression.value].exact;
+  const LetterSet exact = known_[let.expression.value].exact;
   const bool number = range.constant();
   note_given(let.variable.value, range, &root);
   set_letter(let.variable.value, range, exact, spread || number ? 0 : exact);

@@ -19,9 +19,15 @@ namespace orb::compiler {
 /// Stands for an index that refers to nothing.
 inline constexpr std::uint32_t none = 0xFFFFFFFF;
 
+/// How many variables a program can have: the robot's 25 letters, more where a structured program
+/// is read as one.
+inline constexpr std::uint32_t most_letters = 64;
+/// Y, which names an element of Z.
+inline constexpr std::uint32_t index_letter = spec::letter_count - 1;
+
 enum class NodeKind : std::uint8_t {
   Number,  ///< `value`, already modulo 2^32
-  Letter,  ///< `what` is 0 for A to 24 for Y
+  Letter,  ///< `what` is 0 for A to 24 for Y, above that for names
   Indexed, ///< Z: the element that Y names
   System,  ///< `what` is a spec::Variable
   Binary,  ///< `what` is a spec::Operator
@@ -241,6 +247,7 @@ struct Program {
   std::vector<Item> items;
   std::vector<Node> nodes;
   std::vector<Fault> faults;
+  std::uint32_t letters = spec::letter_count; ///< that it can use
 
   std::string_view text_of(Span span) const { return text.substr(span.begin, span.size()); }
   std::span<const Item> items_of(const StatementNode& statement) const {

@@ -192,7 +192,7 @@ std::uint32_t Lowering::repeat_times(std::uint32_t i) {
   if (plan_.native[i]) {
     const auto last = kept(times);
     let(counter, code_.number(1));
-    native(i, end, counter, last, 1, exit, again);
+    native(i, end, counter, code_.number(1), last, 1, exit, again);
     return end + 1;
   }
   const auto top = new_label();
@@ -216,7 +216,8 @@ std::uint32_t Lowering::counting(std::uint32_t i) {
   const auto symbol = names_.of_node[item(node, 0).value];
   const auto counter = symbol == none ? code_.new_variable() : variable_of(symbol);
   const auto step = size(node) > 3 ? evaluate(program_, names_, item(node, 3).value)->value : 1;
-  let(counter, value(item(node, 1).value));
+  const auto first = value(item(node, 1).value);
+  let(counter, first);
   const auto bound = value(item(node, 2).value);
   constexpr std::uint16_t small = 3; // computed again, it is shorter than a line for it
   const bool twice =
@@ -225,7 +226,7 @@ std::uint32_t Lowering::counting(std::uint32_t i) {
   const auto exit = new_label();
   const auto again = new_label();
   if (plan_.native[i]) {
-    native(i, end, counter, last, step, exit, again);
+    native(i, end, counter, first, last, step, exit, again);
     return end + 1;
   }
   const auto top = new_label();
@@ -243,12 +244,16 @@ std::uint32_t Lowering::counting(std::uint32_t i) {
   return end + 1;
 }
 
-void Lowering::native(std::uint32_t i, std::uint32_t end, std::uint32_t counter, std::uint32_t last,
-                      std::int32_t step, std::uint32_t exit, std::uint32_t again) {
-  go_if(step > 0 ? Comparison::Greater : Comparison::Less, code_.read(counter), last, exit);
+void Lowering::native(std::uint32_t i, std::uint32_t end, std::uint32_t counter,
+                      std::uint32_t first, std::uint32_t last, std::int32_t step,
+                      std::uint32_t exit, std::uint32_t again) {
+  const auto begin = [&] {
+    return code_.is_number(first) ? code_.copy(first) : code_.read(counter);
+  };
+  go_if(step > 0 ? Comparison::Greater : Comparison::Less, begin(), last, exit);
   auto& line = emit(LineKind::For);
   line.variable = counter;
-  line.term = code_.read(counter);
+  line.term = begin();
   line.end = code_.copy(last);
   line.step = step;
   const auto top = new_label();

@@ -45,6 +45,7 @@ struct Term {
   std::uint32_t left = none;
   std::uint32_t right = none;
   std::int32_t value = 0;
+  Span source; ///< what it was written as; empty where nobody wrote it
 };
 
 struct Relation {

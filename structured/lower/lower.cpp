@@ -7,8 +7,6 @@
 
 namespace orb::structured {
 namespace lowering {
-namespace {} // namespace
-
 Code Lowering::run() {
   frames_.emplace_back();
   const auto& main = program_.files.front();
@@ -44,8 +42,17 @@ std::uint32_t Lowering::into_temporary(std::uint32_t term) {
   return variable;
 }
 
+std::uint32_t Lowering::read_temporary(std::uint32_t term) {
+  return written_as(code_.terms[term].source, code_.read(into_temporary(term)));
+}
+
+std::uint32_t Lowering::written_as(Span source, std::uint32_t term) {
+  code_.terms[term].source = source;
+  return term;
+}
+
 std::uint32_t Lowering::kept(std::uint32_t term) {
-  return code_.is_number(term) ? term : code_.read(into_temporary(term));
+  return code_.is_number(term) ? term : read_temporary(term);
 }
 
 void Lowering::go_if(Comparison comparison, std::uint32_t left, std::uint32_t right,

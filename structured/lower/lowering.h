@@ -68,6 +68,9 @@ private:
   void go(std::uint32_t label) { emit(LineKind::Goto).label = label; }
   void let(std::uint32_t variable, std::uint32_t term);
   std::uint32_t into_temporary(std::uint32_t term);
+  /// Puts a term into a temporary and reads that, which stands where the term was written.
+  std::uint32_t read_temporary(std::uint32_t term);
+  std::uint32_t written_as(Span source, std::uint32_t term);
   /// A term that stays what it is now.
   std::uint32_t kept(std::uint32_t term);
   void go_if(Comparison comparison, std::uint32_t left, std::uint32_t right, std::uint32_t label);
@@ -175,8 +178,8 @@ private:
   std::uint32_t counting(std::uint32_t i);
 
   /// The robot's own loop, whose body runs once before its end is looked at.
-  void native(std::uint32_t i, std::uint32_t end, std::uint32_t counter, std::uint32_t last,
-              std::int32_t step, std::uint32_t exit, std::uint32_t again);
+  void native(std::uint32_t i, std::uint32_t end, std::uint32_t counter, std::uint32_t first,
+              std::uint32_t last, std::int32_t step, std::uint32_t exit, std::uint32_t again);
   std::uint32_t selection(std::uint32_t i);
   void add_cases(const Statement& node, std::uint32_t body, std::vector<Case>& cases) const;
 

@@ -100,12 +100,12 @@ void Lowering::assign(const Statement& node) {
   }
   const bool system = place.kind == NodeKind::System;
   if (compound)
-    push(system ? code_.system(static_cast<spec::Variable>(place.what))
-                : name(names_.of_node[target.value]));
+    push(written_as(target.span, system ? code_.system(static_cast<spec::Variable>(place.what))
+                                        : name(names_.of_node[target.value])));
   push_value(root);
   auto term = pop();
   if (compound)
-    term = binary(static_cast<Operator>(node.operation), pop(), term);
+    term = written_as(node.span, binary(static_cast<Operator>(node.operation), pop(), term));
   if (system) {
     auto& line = emit(LineKind::SetSystem);
     line.variable = place.what;

@@ -27,7 +27,7 @@ void Lowering::settle(std::uint8_t effects) {
       early.push_back(i);
     }
   for (auto i = early.rbegin(); i != early.rend(); ++i)
-    pending_[*i] = code_.read(into_temporary(pending_[*i]));
+    pending_[*i] = read_temporary(pending_[*i]);
 }
 
 void Lowering::settle_calls(std::size_t end) {
@@ -36,7 +36,7 @@ void Lowering::settle_calls(std::size_t end) {
     const bool temporary = term.kind == TermKind::Variable && term.left != index_variable &&
                            code_.variables[term.left].symbol == none && !is_result(term.left);
     if (term.kind != TermKind::Number && !temporary)
-      pending_[i] = code_.read(into_temporary(pending_[i]));
+      pending_[i] = read_temporary(pending_[i]);
   }
 }
 
@@ -46,7 +46,7 @@ bool Lowering::is_result(std::uint32_t variable) const {
 
 std::uint32_t Lowering::spill(std::uint32_t term) {
   settle(code_.terms[term].effects);
-  return code_.read(into_temporary(term));
+  return read_temporary(term);
 }
 
 std::uint32_t Lowering::binary(Operator op, std::uint32_t left, std::uint32_t right) {
@@ -76,8 +76,10 @@ std::uint32_t Lowering::call(spec::Function function, std::uint32_t operand) {
 }
 
 void Lowering::push_value(std::uint32_t root, Unit unit) {
-  for (auto n = program_.nodes[root].first; n <= root; ++n)
+  for (auto n = program_.nodes[root].first; n <= root; ++n) {
     push_node(n, unit);
+    written_as(program_.nodes[n].span, pending_.back());
+  }
 }
 
 std::uint32_t Lowering::value(std::uint32_t root, Unit unit) {

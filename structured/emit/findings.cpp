@@ -1,0 +1,275 @@
+#include "structured/emit/findings.h"
+
+#include "base/text/text.h"
+#include "compiler/text/rules.h"
+#include "compiler/text/texts.h"
+#include "repair/tokens.h"
+#include "spec/limits.h"
+#include "structured/text/blocks.h"
+#include "structured/text/texts.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <utility>
+
+namespace orb::structured {
+namespace {
+
+namespace robot = compiler::rules;
+namespace robot_texts = compiler::texts;
+
+/// The rules that say something about structured programs, too; of what the others are about,
+/// structured/meaning/ knows more.
+bool is_told(const Rule* rule) {
+  for (const auto* told : {&robot::ValueOutOfRange,  &robot::DivisionByZero,  &robot::UnknownFlags,
+                           &robot::MissingGo,        &robot::NewerThanTarget, &robot::ReadPastData,
+                           &robot::ClearedByReading, &robot::DataReplaced,    &robot::BusyLoop,
+                           &robot::IndexRange,       &robot::MissingDelay,    &robot::DrivesOn,
+                           &robot::LoopLeavesRange,  &robot::HeadingGrows,    &robot::ValueGrows,
+                           &robot::MayLeaveRange,    &robot::WrongUnit,       &robot::TinyValue,
+                           &robot::GoZero,           &robot::WeakBrake,       &robot::StaleSensor,
+                           &robot::InvertedWait,     &robot::LoopVariableSet, &robot::EmptyLoop,
+                           &robot::AlwaysOne,        &robot::RobotLacks,      &robot::NeverRolls,
+                           &robot::WakesElsewhere})
+    if (rule == told)
+      return true;
+  return false;
+}
+
+class MeaningFindings {
+public:
+  MeaningFindings(Program& program, const Names& names, const compiler::Program& lines)
+      : program_(program), names_(names), lines_(lines) {}
+
+  void run(const compiler::Target& target) {
+    for (auto& found : compiler::lint_meaning(lines_, target))
+      if (is_told(found.rule))
+        tell(std::move(found));
+  }
+
+private:
+  const Statement& statement_at(std::uint32_t offset) const {
+    const auto next = std::upper_bound(
+        program_.statements.begin(), program_.statements.end(), offset,
+        [](std::uint32_t at, const Statement& one) { return at < one.span.begin; });
+    return next == program_.statements.begin() ? *next : *(next - 1);
+  }
+
+  void tell(Diagnostic found) {
+    const auto& statement = statement_at(found.span.begin);
+    if (has_unit(found) || (is_error(found) && raise_what_was_feared(statement)) ||
+        is_said(found, statement))
+      return;
+    put_into_source_words(found, statement);
+    std::erase_if(found.notes,
+                  [&](const Note& note) { return &statement_at(note.span.begin) == &statement; });
+    if (found.fix && !std::all_of(found.fix->edits.begin(), found.fix->edits.end(),
+                                  [&](const Edit& edit) { return is_typed(edit.span); }))
+      found.fix.reset();
+    program_.diagnostics.push_back(std::move(found));
+  }
+
+  /// What happens for certain there was already said to be possible: whether that became an error.
+  bool raise_what_was_feared(const Statement& statement) {
+    for (auto& other : program_.diagnostics)
+      if (other.span.begin >= statement.span.begin && other.span.end <= statement.span.end &&
+          other.rule == &robot::LoopLeavesRange) {
+        other.severity = Severity::Error;
+        return true;
+      }
+    return false;
+  }
+
+  /// Whether a number is written there, which may be exchanged.
+  bool is_typed(Span span) const {
+    return span.size() == 0 || is_digit(program_.text[span.begin]) ||
+           program_.text[span.begin] == '-';
+  }
+
+  /// A time that names its unit is meant.
+  bool has_unit(const Diagnostic& found) const {
+    const auto text = program_.text_of(found.span);
+    return found.rule == &robot::WrongUnit && is_digit(text.front()) && is_letter(text.back());
+  }
+
+  /// Whether that, or worse, is said of the statement already.
+  bool is_said(const Diagnostic& found, const Statement& statement) const {
+    return std::any_of(
+        program_.diagnostics.begin(), program_.diagnostics.end(), [&](const Diagnostic& other) {
+          return other.span.begin >= statement.span.begin && other.span.end <= statement.span.end &&
+                 (other.rule == found.rule || other.severity == Severity::Error ||
+                  (is_of_array(found) && other.rule == &robot::LoopLeavesRange) ||
+                  found.rule == &robot::WrongUnit);
+        });
+  }
+
+  /// Whether it is about an index of the robot's only list.
+  static bool is_of_array(const Diagnostic& found) {
+    return found.message.is(robot_texts::UsedWhileIndexIs) ||
+           found.message.is(robot_texts::UsedWhileIndexCanBe) ||
+           found.message.is(robot_texts::UsedWhileIndexBecomes);
+  }
+
+  /// Letters and line numbers of the robot say nothing to whoever wrote names.
+  void put_into_source_words(Diagnostic& found, const Statement& statement) const {
+    if (found.rule == &robot::BusyLoop)
+      found.message = texts::NeverWaits();
+    if (found.rule == &robot::WakesElsewhere)
+      found.message = texts::RestartInFlash();
+    if (is_of_array(found))
+      tell_of_index(found, statement);
+    if (found.rule == &robot::HeadingGrows || found.rule == &robot::ValueGrows)
+      tell_of_sum(found, statement);
+    if (found.rule == &robot::StaleSensor)
+      tell_of_copy(found, statement);
+    if (found.rule == &robot::DrivesOn)
+      tell_of_stop(found, statement);
+    if (found.rule == &robot::InvertedWait) {
+      found.help = texts::Reverse();
+      found.fix.reset();
+    }
+  }
+
+  /// The arrays that a statement uses, each once.
+  std::vector<const Symbol*> arrays_of(const Statement& statement) const {
+    std::vector<const Symbol*> arrays;
+    for (const auto& item : program_.items_of(statement)) {
+      if (!item.has_nodes())
+        continue;
+      for (auto n = program_.nodes[item.value].first; n <= item.value; ++n) {
+        const auto symbol = names_.of_node[n];
+        if (program_.nodes[n].kind != NodeKind::Element || symbol == none)
+          continue;
+        const auto* array = &names_.symbols[symbol];
+        if (std::find(arrays.begin(), arrays.end(), array) == arrays.end())
+          arrays.push_back(array);
+      }
+    }
+    return arrays;
+  }
+
+  /// An index, in words of the array that the source has.
+  void tell_of_index(Diagnostic& found, const Statement& statement) const {
+    const auto arrays = arrays_of(statement);
+    found.help = {};
+    found.fix.reset();
+    found.span = statement.span;
+    found.message = is_error(found) ? texts::IndexOutOfBounds()
+                    : arrays.size() == 1
+                        ? texts::IndexCanLeave(program_.name(arrays[0]->name), arrays[0]->value)
+                        : texts::AnIndexCanLeave();
+  }
+
+  /// A copy of a sensor: the loop is to read the sensor itself.
+  void tell_of_copy(Diagnostic& found, const Statement& statement) const {
+    found.help = texts::ReadInLoop();
+    if (found.notes.empty() || statement.kind != Kind::Assign)
+      return;
+    const auto items = program_.items_of(statement);
+    const auto name = program_.text_of(items[0].span);
+    const auto test = std::string(program_.text_of(statement_at(found.notes[0].span.begin).span));
+    for (const auto& token : repair::tokens_of(test, repair::Language::Structured))
+      if (token.is_word() && equal_words(token.text, name))
+        found.help = robot_texts::WriteInLoop(fmt::format("{}{}{}", test.substr(0, token.at),
+                                                          program_.text_of(items[1].span),
+                                                          test.substr(token.at + name.size())));
+  }
+
+  /// The `delay` between a roll and the last statement, if no block is on the way and no other one
+  /// is there; else that statement.
+  const Statement* only_wait_below(const Statement& roll, const Statement& last) const {
+    const Statement* found = nullptr;
+    for (const auto* one = &roll + 1; one <= &last; ++one) {
+      const bool waits = one->kind == Kind::Robot && one->robot == spec::Statement::Delay;
+      if (one->depth != roll.depth || opens_block(one->kind) || one->kind == Kind::Label ||
+          (waits && found != nullptr))
+        return &last;
+      found = waits ? one : found;
+    }
+    return found != nullptr ? found : &last;
+  }
+
+  /// A line that stops the ball in the direction in which it rolls.
+  void tell_of_stop(Diagnostic& found, const Statement& statement) const {
+    std::string_view heading = "0";
+    const auto* place = &statement;
+    found.fix.reset();
+    for (const auto& note : found.notes)
+      if (const auto& roll = statement_at(note.span.begin);
+          roll.kind == Kind::Robot && roll.robot == spec::Statement::Goroll) {
+        const auto first = program_.text_of(program_.items_of(roll)[0].span);
+        heading = is_digit(first[0]) ? first : heading;
+        place = only_wait_below(roll, statement);
+      }
+    auto line = fmt::format("goroll {}, 0, 0", heading);
+    const std::string end(line_end_of(program_.text));
+    const bool waits = // somewhere; else the linter adds a wait, too
+        std::any_of(lines_.statements.begin(), lines_.statements.end(), [](const auto& one) {
+          return spec::info(one.kind).after == spec::After::Waits;
+        });
+    const auto& last = *place;
+    const bool ends = last.kind == Kind::Robot && last.robot == spec::Statement::End;
+    if (!waits) {
+      found.help = texts::AddTwo("delay 1s", line);
+      line = "delay 1s" + end + line;
+    } else if (&last != &statement) {
+      found.help = texts::AddBelowOther(line, program_.text_of(last.span));
+    } else {
+      found.help = (ends ? texts::AddAbove : texts::AddBelow)(line);
+    }
+    if (last.depth > 0 || last.one_line)
+      return;
+    const auto begin = last.span.begin;
+    const auto rest = program_.text.find_first_of("\r\n", last.span.end);
+    const auto at = static_cast<std::uint32_t>(std::min(rest, program_.text.size()));
+    found.fix = Fix{found.help,
+                    {ends ? Edit{{begin, begin}, line + end} : Edit{{at, at}, end + line}},
+                    Safety::Unsafe};
+  }
+
+  /// What a line takes away where it sets a variable to the sum at `span`; 0 where it adds.
+  std::int32_t taken_away(Span span) const {
+    const auto sum =
+        std::find_if(lines_.items.begin(), lines_.items.end(), [&](const compiler::Item& one) {
+          return one.kind == compiler::ItemKind::Expression && one.span == span;
+        });
+    if (sum == lines_.items.end())
+      return 0;
+    const auto& root = lines_.nodes[sum->value];
+    const bool subtracts = root.kind == compiler::NodeKind::Binary &&
+                           static_cast<spec::Operator>(root.what) == spec::Operator::Subtract;
+    return subtracts ? lines_.nodes[sum->value - 1].value : 0;
+  }
+
+  void tell_of_sum(Diagnostic& found, const Statement& statement) const {
+    if (statement.kind != Kind::Assign)
+      return;
+    const auto items = program_.items_of(statement);
+    const auto name = program_.text_of(items[0].span);
+    auto sum = std::string(program_.text_of(items[1].span));
+    if (statement.operation != Statement::none_operation)
+      sum = fmt::format("{} {} {}", name,
+                        spec::info(static_cast<spec::Operator>(statement.operation)).symbol, sum);
+    // The remainder of a value below 0 is below 0, too.
+    const auto turn = spec::info(spec::Statement::Goroll).parameters()[0].greatest + 1;
+    if (const auto step = taken_away(found.span); step > 0)
+      sum = fmt::format("{} + {}", name, turn - step % turn);
+    found.span = statement.span;
+    found.message.refill(0, Message::as_is(std::string(name)));
+    found.help = texts::Write(fmt::format("{} = ({}) % {}", name, sum, turn));
+    found.fix.reset();
+  }
+
+  Program& program_;
+  const Names& names_;
+  const compiler::Program& lines_;
+};
+
+} // namespace
+
+void find_meaning(Program& program, const Names& names, const compiler::Program& lines,
+                  const compiler::Target& target) {
+  MeaningFindings(program, names, lines).run(target);
+}
+
+} // namespace orb::structured

@@ -1,0 +1,15 @@
+#pragma once
+
+#include "compiler/lint/lint.h"
+#include "structured/emit/compiled.h"
+
+namespace orb::structured {
+
+/// Says so where the packed lines of a program do not fit into the robot, or not into the oldest
+/// ones.
+void check_size(Compiled& compiled, const compiler::Target& target);
+
+/// Says that a program is far too large for any robot.
+void report_too_large(Compiled& compiled, const compiler::Target& target);
+
+} // namespace orb::structured
