@@ -26,9 +26,11 @@ public:
       check_joint(program_.as<IfView>(program_.statements[place.statement]));
     for (const auto& place : flow_.all(Statement::Let))
       check_let(program_.statements[place.statement], place.code);
-    for (const auto& place : flow_.all(Statement::For))
-      if (flow_.is_line(place))
-        check_sum(place.code);
+    for (const auto& statement : program_.statements)
+      if (!statement.error)
+        for (auto n = statement.nodes_begin; n < statement.nodes_end; ++n)
+          check_share(n);
+    check_loops();
     check_products();
   }
 
@@ -49,13 +51,14 @@ private:
   const Item& value_of(const StatementNode& let) const {
     return program_.as<LetView>(let).expression;
   }
-  static std::string name_of(std::uint8_t letter) { return {static_cast<char>('A' + letter)}; }
+  std::string_view name_in(const StatementNode& let) const {
+    return program_.text_of(program_.as<LetView>(let).variable.span);
+  }
 
   void check_let(const StatementNode& let, std::uint32_t code) {
     if (!set_by(let))
       return;
     note_product(let);
-    check_share(value_of(let));
     if (const auto letter = letter_in(program_, value_of(let));
         letter && &let == &statement_of(code))
       check_exchange(code, *letter);
@@ -109,11 +112,13 @@ private:
         letter_in(program_, value_of(statement_of(i + 1))) != first)
       return;
     add(rules::LostExchange, statement_of(i).span,
-        lost_exchange(name_of(*first), name_of(second), free_letter()));
+        lost_exchange(name_in(statement_of(i)), name_in(statement_of(i + 1)), free_name()));
   }
 
-  std::string free_letter() const {
-    std::array<bool, spec::letter_count> used{};
+  std::string free_name() const {
+    if (program_.letters > spec::letter_count)
+      return "kept";
+    std::array<bool, most_letters> used{};
     for (const auto& node : program_.nodes)
       if (node.kind == NodeKind::Letter)
         used[node.what] = true;
@@ -121,43 +126,55 @@ private:
       if (const auto letter = set_by(statement))
         used[*letter] = true;
     const auto free = std::find(used.begin() + 2, used.end(), false); // from C on
-    return name_of(static_cast<std::uint8_t>(free == used.end() ? 2 : free - used.begin()));
+    return {
+        spec::letter_name(free == used.end() ? 2 : static_cast<std::size_t>(free - used.begin()))};
   }
 
   // ---- a share of 100
 
-  void check_share(const Item& value) {
-    const auto nodes = nodes_of(program_, value);
+  void check_share(std::uint32_t n) {
     constexpr std::int32_t per_cent = 100; // of a whole
-    const auto last = nodes.size() - 1;    // dividend, divisor, `/`, 100, `*`
-    const auto is = [&](std::size_t node, spec::Operator sign) {
+    const auto& nodes = program_.nodes;
+    const auto is = [&](std::uint32_t node, spec::Operator sign) {
       return nodes[node].kind == NodeKind::Binary &&
              static_cast<spec::Operator>(nodes[node].what) == sign;
     };
-    const auto is_number = [&](std::size_t node) { return nodes[node].kind == NodeKind::Number; };
-    if (nodes.size() < 5 || !is(last, spec::Operator::Multiply) || !is_number(last - 1) ||
-        nodes[last - 1].value != per_cent || !is(last - 2, spec::Operator::Divide) ||
-        !is_number(last - 3) || nodes[last - 3].value < 2 || nodes[last - 3].value % per_cent == 0)
+    if (!is(n, spec::Operator::Multiply) || nodes[n - 1].kind != NodeKind::Number ||
+        nodes[n - 1].value != per_cent)
       return;
+    const auto quotient = nodes[n - 1].first - 1;
+    if (!is(quotient, spec::Operator::Divide))
+      return;
+    const auto& divisor = nodes[quotient - 1];
+    if (divisor.kind != NodeKind::Number || divisor.overflow || divisor.value < 2 ||
+        divisor.value % per_cent == 0)
+      return;
+    const auto& dividend = nodes[divisor.first - 1];
+    const bool sum = dividend.kind == NodeKind::Binary &&
+                     spec::operators[dividend.what].level == spec::Level::Low;
     const auto line =
-        fmt::format("{} * {} / {}", program_.text_of({value.span.begin, nodes[last - 4].span.end}),
-                    per_cent, nodes[last - 3].value);
-    add(rules::DividesFirst, value.span, divides_first(program_.text_of(value.span), line)).fix =
-        single_fix(texts::Write(line), value.span, line, Safety::Unsafe);
+        fmt::format("{}{}{} * {} / {}", sum ? "(" : "", program_.text_of(dividend.span),
+                    sum ? ")" : "", per_cent, program_.text_of(divisor.span));
+    const auto& span = nodes[n].span;
+    add(rules::DividesFirst, span, divides_first(program_.text_of(span), line)).fix =
+        single_fix(texts::Write(line), span, line, Safety::Unsafe);
   }
 
   // ---- a product that begins at 0
 
   void note_product(const StatementNode& let) {
     const auto letter = *set_by(let);
-    const auto nodes = nodes_of(program_, value_of(let));
-    const auto is_own = [&](const Node& node) {
-      return node.kind == NodeKind::Letter && node.what == letter;
+    const auto root = value_of(let).value;
+    const auto& nodes = program_.nodes;
+    if (nodes[root].kind == NodeKind::Number && nodes[root].value == 0)
+      return; // what it is anyway
+    const auto is_own = [&](std::uint32_t n) {
+      return nodes[n].kind == NodeKind::Letter && nodes[n].what == letter;
     };
     const bool product =
-        nodes.size() > 2 && nodes.back().kind == NodeKind::Binary &&
-        static_cast<spec::Operator>(nodes.back().what) == spec::Operator::Multiply &&
-        (is_own(nodes.front()) || is_own(nodes[nodes.size() - 2])) && nodes.size() == 3;
+        nodes[root].kind == NodeKind::Binary &&
+        static_cast<spec::Operator>(nodes[root].what) == spec::Operator::Multiply &&
+        (is_own(root - 1) || is_own(nodes[root - 1].first - 1));
     auto& known = products_[letter];
     known.others = known.others || !product;
     if (product && known.first == nullptr)
@@ -170,36 +187,57 @@ private:
         for (const auto& item : program_.items_of(program_.statements[place.statement]))
           if (item.kind == ItemKind::Letter)
             products_[item.value].others = true;
-    for (std::size_t i = 0; i < products_.size(); ++i) {
-      if (products_[i].first == nullptr || products_[i].others || program_.lines.empty())
-        continue;
-      add(rules::StaysZero, products_[i].first->span,
-          stays_zero(name_of(static_cast<std::uint8_t>(i))));
-    }
+    for (const auto& product : products_)
+      if (product.first != nullptr && !product.others)
+        add(rules::StaysZero, product.first->span, stays_zero(name_in(*product.first)));
   }
 
   // ---- a sum that begins anew in each round
 
-  void check_sum(std::uint32_t loop) {
-    const auto counter = program_.as<ForView>(statement_of(loop)).variable.value;
+  /// Beyond these no area of the robot holds a loop.
+  static constexpr std::uint32_t longest_loop = 512;
+
+  void check_loops() {
+    for (const auto& place : flow_.all(Statement::For))
+      if (flow_.is_line(place))
+        if (const auto next = next_of(place.code); next != none)
+          check_sum(place.code + 1, next);
+    for (const auto& jump : flow_.jumps)
+      if (!jump.call && jump.to <= jump.from && jump.from - jump.to < longest_loop &&
+          statement_of(jump.from).kind != Statement::On)
+        check_sum(jump.to, jump.from);
+  }
+
+  /// The `next` of a loop, as they stand in the text.
+  std::uint32_t next_of(std::uint32_t loop) const {
+    std::uint32_t depth = 0;
+    for (auto i = loop; i < flow_.code.size() && i - loop < longest_loop; ++i) {
+      depth += statement_of(i).kind == Statement::For ? 1 : 0;
+      if (statement_of(i).kind == Statement::Next && --depth == 0)
+        return i;
+    }
+    return none;
+  }
+
+  /// Looks at a loop from its first line to the one that leads back.
+  void check_sum(std::uint32_t first, std::uint32_t last) {
     std::uint32_t depth = 0;
     const StatementNode* restart = nullptr;
-    for (auto i = loop + 1; i < flow_.code.size(); ++i) {
+    for (auto i = first; i < last; ++i) {
       const auto& statement = statement_of(i);
-      if (statement.error || flow_.code[i].target || statement.kind == Statement::If)
-        return;
-      if (statement.kind == Statement::Next && depth == 0)
-        return;
+      if (statement.error || (flow_.code[i].target && i > first) ||
+          !flow_.jumps_of(flow_.code[i]).empty() || statement.then_branch != none)
+        return; // a line runs in some rounds only
       depth += statement.kind == Statement::For ? 1 : 0;
       depth -= statement.kind == Statement::Next ? 1 : 0;
       const auto letter = set_by(statement);
-      if (!letter || depth > 0 || *letter == counter)
+      if (!letter || depth > 0)
         continue;
       if (restart == nullptr && number_in(program_, value_of(statement)))
         restart = &statement;
       else if (restart != nullptr && set_by(*restart) == letter && adds_to(statement, *letter) &&
-               is_read_after_loop(i, *letter))
-        return add_restart(*restart, *letter);
+               is_read_below(last, *letter))
+        return add_restart(*restart);
     }
   }
 
@@ -209,21 +247,16 @@ private:
            nodes.front().kind == NodeKind::Letter && nodes.front().what == letter;
   }
 
-  /// Whether what is read below the loop's `next` is that letter, before it is set there.
-  bool is_read_after_loop(std::uint32_t from, std::uint8_t letter) const {
-    std::uint32_t depth = 0;
-    bool below = false;
-    for (auto i = from; i < flow_.code.size(); ++i) {
+  /// Whether the letter is read below a loop before it is set there.
+  bool is_read_below(std::uint32_t last, std::uint8_t letter) const {
+    for (auto i = last + 1; i < flow_.code.size(); ++i) {
       const auto& statement = statement_of(i);
       if (statement.error)
         return false;
-      if (below && reads(statement, letter))
+      if (reads(statement, letter))
         return true;
-      if (below && set_by(statement) == letter)
+      if (set_by(statement) == letter)
         return false;
-      if (!below && statement.kind == Statement::Next && depth-- == 0)
-        below = true;
-      depth += statement.kind == Statement::For ? 1 : 0;
     }
     return false;
   }
@@ -236,9 +269,9 @@ private:
     return false;
   }
 
-  void add_restart(const StatementNode& restart, std::uint8_t letter) {
+  void add_restart(const StatementNode& restart) {
     add(rules::SumRestarts, restart.span,
-        sum_restarts(name_of(letter), texts::WriteAboveFor(program_.text_of(restart.span))));
+        sum_restarts(name_in(restart), texts::WriteAboveLoop(program_.text_of(restart.span))));
   }
 
   Diagnostic& add(const Rule& rule, Span span, Said said) {

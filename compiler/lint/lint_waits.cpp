@@ -391,7 +391,9 @@ private:
     const bool down = back == (relation == Relation::Greater);
     findings_.add(rules::EndlessLoop, Span{condition.left.span.begin, condition.right.span.end},
                   texts::NothingChanges(name),
-                  texts::AddToLoop(fmt::format("{0} = {0} {1} 1", name, down ? '-' : '+')));
+                  texts::AddToLoop(program_.letters > spec::letter_count
+                                       ? fmt::format("{} {}= 1", name, down ? '-' : '+')
+                                       : fmt::format("{0} = {0} {1} 1", name, down ? '-' : '+')));
   }
 
   const Program& program_;

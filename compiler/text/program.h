@@ -247,7 +247,7 @@ struct Program {
   std::vector<Item> items;
   std::vector<Node> nodes;
   std::vector<Fault> faults;
-  std::uint32_t letters = spec::letter_count; ///< that it can use
+  std::uint32_t letters = spec::letter_count; ///< that it can use; more where variables have names
 
   std::string_view text_of(Span span) const { return text.substr(span.begin, span.size()); }
   std::span<const Item> items_of(const StatementNode& statement) const {

@@ -30,7 +30,8 @@ bool is_told(const Rule* rule) {
                            &robot::GoZero,           &robot::WeakBrake,       &robot::StaleSensor,
                            &robot::InvertedWait,     &robot::LoopVariableSet, &robot::EmptyLoop,
                            &robot::AlwaysOne,        &robot::RobotLacks,      &robot::NeverRolls,
-                           &robot::WakesElsewhere})
+                           &robot::WakesElsewhere,   &robot::LostExchange,    &robot::DividesFirst,
+                           &robot::StaysZero,        &robot::SumRestarts,     &robot::EndlessLoop})
     if (rule == told)
       return true;
   return false;
@@ -154,10 +155,10 @@ private:
     found.help = {};
     found.fix.reset();
     found.span = statement.span;
-    found.message = is_error(found) ? texts::IndexOutOfBounds()
-                    : arrays.size() == 1
+    found.message = arrays.size() == 1
                         ? texts::IndexCanLeave(program_.name(arrays[0]->name), arrays[0]->value)
-                        : texts::AnIndexCanLeave();
+                    : is_error(found) ? texts::IndexOutOfBounds()
+                                      : texts::AnIndexCanLeave();
   }
 
   /// A copy of a sensor: the loop is to read the sensor itself.

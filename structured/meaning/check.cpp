@@ -24,8 +24,6 @@ void Checker::run() {
   check_values();
   if (!any_error(program_.diagnostics))
     check_loops();
-  if (!any_error(program_.diagnostics))
-    check_products();
 }
 
 Diagnostic& Checker::report(const Rule& rule, Span span, Message message, Message help) {

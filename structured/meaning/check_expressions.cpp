@@ -189,7 +189,6 @@ void Checker::check_node(const Statement& statement, std::uint32_t n, bool is_ro
     check_sensor(n);
   if (node.kind == NodeKind::Binary) {
     check_quotient(n);
-    check_share(n);
     check_overflow(n);
   }
   const bool takes_conditions =

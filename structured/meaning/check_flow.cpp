@@ -152,20 +152,12 @@ void Checker::check_loops() {
     if (at(i).kind == Kind::Loop ||
         (at(i).kind == Kind::While && always_holds(item(at(i), 0).value)))
       check_endless(i);
-    else if (at(i).kind == Kind::While) {
-      check_unchanged(i, item(at(i), 0).value);
-      if (at(i).next != none)
-        check_inverted(i);
-    } else if (at(i).kind == Kind::Repeat && at(i).next != none &&
-               at(at(i).next).kind == Kind::Until)
-      check_unchanged(i, item(at(at(i).next), 0).value);
+    else if (at(i).kind == Kind::While && at(i).next != none)
+      check_inverted(i);
     if (at(i).kind == Kind::For)
       check_counter(i);
-    if (is_loop(at(i).kind) && at(i).next != none) {
+    if (is_loop(at(i).kind) && at(i).next != none)
       check_single_round(i);
-      check_restart(i);
-    }
-    check_exchange(i);
   }
   check_called_loops();
 }
@@ -293,84 +285,6 @@ const Statement* Checker::never_reached(std::uint32_t i, std::uint32_t after) co
                     !declares(kind) && !parts_block(kind) && !closes_block(kind) &&
                     (kind != Kind::Robot || at(after).robot != spec::Statement::Data);
   return runs ? &at(after) : nullptr;
-}
-
-void Checker::check_unchanged(std::uint32_t i, std::uint32_t condition) {
-  std::vector<std::uint32_t> symbols;
-  for (auto n = program_.nodes[condition].first; n <= condition; ++n) {
-    const auto& node = program_.nodes[n];
-    if (node.kind == NodeKind::System || node.kind == NodeKind::Call ||
-        node.kind == NodeKind::Element || node.kind == NodeKind::Builtin)
-      return;
-    if (node.kind != NodeKind::Name)
-      continue;
-    if (names_.of_node[n] == none)
-      return;
-    if (names_.symbols[names_.of_node[n]].kind != SymbolKind::Constant)
-      symbols.push_back(names_.of_node[n]);
-  }
-  if (symbols.size() != 1 || may_end(i, symbols[0]))
-    return;
-  for (const auto& d : program_.diagnostics)
-    if (d.rule == &rules::UnusedName && at(i).span.begin < d.span.begin &&
-        d.span.begin < at(at(i).next).span.begin)
-      return; // what is set there may have been meant
-  for (const auto& one : program_.statements)
-    if (one.kind == Kind::Assign && names_.of_node[item(one, 0).value] == symbols[0] &&
-        !value_of(item(one, 1)))
-      return check_copy(one, at(i).kind == Kind::While ? at(i) : at(at(i).next), symbols[0]);
-  const auto name = program_.name(names_.symbols[symbols[0]].name);
-  const auto& root = program_.nodes[condition];
-  const auto relation = static_cast<Comparison>(root.what);
-  const bool greater = relation == Comparison::Greater || relation == Comparison::GreaterEqual;
-  const bool less = relation == Comparison::Less || relation == Comparison::LessEqual;
-  const bool counts = root.kind == NodeKind::Relation && (greater || less) &&
-                      program_.nodes[root.first].kind == NodeKind::Name;
-  const bool down = greater == (at(i).kind == Kind::While);
-  report(compiler::rules::EndlessLoop, root.span, compiler::texts::NothingChanges(name),
-         counts ? compiler::texts::AddToLoop(fmt::format("{} {} 1", name, down ? "-=" : "+="))
-                : Message());
-}
-
-void Checker::check_copy(const Statement& copy, const Statement& test, std::uint32_t symbol) {
-  const auto& sensor = program_.nodes[item(copy, 1).value];
-  if (sensor.kind != NodeKind::System)
-    return;
-  std::uint32_t settings = 0;
-  for (const auto& one : program_.statements)
-    for (const auto& part : program_.items_of(one))
-      settings += part.kind == ItemKind::Place && names_.of_node[part.value] == symbol ? 1 : 0;
-  if (settings != 1)
-    return;
-  const auto word = program_.text_of(sensor.span);
-  const auto condition = item(test, 0).value;
-  auto line = std::string(program_.text_of(test.span));
-  for (auto n = condition + 1; n-- > program_.nodes[condition].first;)
-    if (const auto& node = program_.nodes[n];
-        node.kind == NodeKind::Name && names_.of_node[n] == symbol)
-      line.replace(node.span.begin - test.span.begin, node.span.end - node.span.begin, word);
-  auto& d = report(compiler::rules::StaleSensor, copy.span,
-                   compiler::texts::ReadOnceBeforeLoop(word), texts::Write(line));
-  d.notes.push_back({program_.nodes[condition].span, compiler::texts::LoopTestsCopyHere()});
-}
-
-bool Checker::may_end(std::uint32_t loop, std::uint32_t symbol) const {
-  for (auto n = loop + 1; n < at(loop).next; ++n) {
-    const auto& statement = at(n);
-    if (statement.kind == Kind::Exit || statement.kind == Kind::Goto ||
-        statement.kind == Kind::Return || statement.kind == Kind::Call ||
-        (statement.kind == Kind::Robot && spec::info(statement.robot).after == spec::After::Ends))
-      return true;
-    for (const auto& part : program_.items_of(statement)) {
-      if (part.kind == ItemKind::Place && names_.of_node[part.value] == symbol)
-        return true;
-      if (part.kind == ItemKind::Place || part.kind == ItemKind::Expression)
-        for (auto node = program_.nodes[part.value].first; node <= part.value; ++node)
-          if (program_.nodes[node].kind == NodeKind::Call)
-            return true;
-    }
-  }
-  return false;
 }
 
 void Checker::check_counter(std::uint32_t i) {

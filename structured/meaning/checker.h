@@ -196,15 +196,6 @@ private:
   /// something else does, or where it would do nothing.
   const Statement* never_reached(std::uint32_t i, std::uint32_t after) const;
 
-  /// A loop that asks one variable, which nothing in it changes.
-  void check_unchanged(std::uint32_t i, std::uint32_t condition);
-
-  /// A loop that asks a variable which another line copied from a sensor, once.
-  void check_copy(const Statement& copy, const Statement& test, std::uint32_t symbol);
-
-  /// Whether the lines of a loop may end it, or change the symbol.
-  bool may_end(std::uint32_t loop, std::uint32_t symbol) const;
-
   /// A loop whose counter is an index in each turn, and not always that of an element.
   void check_counter(std::uint32_t i);
 
@@ -219,26 +210,8 @@ private:
   /// `x > 9 and x < 1` never holds, `x <> 1 or x <> 2` always.
   void check_joint(std::uint32_t n);
 
-  /// `a / b * 100`.
-  void check_share(std::uint32_t n);
-
-  /// The variable, array or parameter that a statement assigns to; none of any other one.
-  std::uint32_t set_by(const Statement& statement) const;
-
-  /// `a = b`, then `b = a`.
-  void check_exchange(std::uint32_t i);
-
   /// A loop that ends with an `exit` that asks nothing.
   void check_single_round(std::uint32_t i);
-
-  /// Variables that are only ever multiplied.
-  void check_products();
-  bool multiplies(const Statement& statement, std::uint32_t symbol) const;
-
-  /// A sum that its loop sets back in each round.
-  void check_restart(std::uint32_t i);
-  bool adds_to(const Statement& statement, std::uint32_t symbol) const;
-  bool is_read_below(std::uint32_t statement, std::uint32_t symbol) const;
 
   // ---- functions without a value
 

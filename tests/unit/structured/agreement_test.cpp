@@ -42,8 +42,9 @@ bool may_remain(const Diagnostic& found) {
        {&robot::BusyLoop, &robot::ClearedByReading, &robot::DataReplaced, &robot::DataExpression,
         &robot::LargerThanOldRam, &robot::UnusedVariable, &robot::MissingGo,
         &robot::ProgramTooLarge, &robot::MissingDelay, &robot::DrivesOn, &robot::LoopLeavesRange,
-        &robot::HeadingGrows, &robot::ReadPastData,
-        &robot::IndexBeforeY}) // a loop whose first index is 0, as `Y` is then
+        &robot::HeadingGrows, &robot::ReadPastData, &robot::ValueOutOfRange,
+        &robot::DivisionByZero, // of what only the optimiser found out
+        &robot::IndexBeforeY})  // a loop whose first index is 0, as `Y` is then
     if (found.rule == rule)
       return true;
   // What says that a program does something else than was meant; random ones mean nothing.
