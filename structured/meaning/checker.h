@@ -240,6 +240,15 @@ private:
   bool adds_to(const Statement& statement, std::uint32_t symbol) const;
   bool is_read_below(std::uint32_t statement, std::uint32_t symbol) const;
 
+  // ---- what is hardly meant
+
+  /// A change of a parameter, which the caller never sees.
+  void check_parameters();
+  bool is_read_after(std::uint32_t statement, std::uint32_t symbol) const;
+
+  /// Lines that look as if they belonged to the `if` of one line above them.
+  void check_indented();
+
   // ---- functions without a value
 
   void check_values();
