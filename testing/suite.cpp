@@ -4,8 +4,10 @@
 #include "base/text/suggest.h"
 #include "base/text/text.h"
 #include "compiler/text/image.h"
+#include "report/rules.h"
 #include "testing/check_room.h"
 #include "testing/lookup.h"
+#include "testing/meant.h"
 #include "testing/text/rules.h"
 #include "testing/texts.h"
 
@@ -301,6 +303,10 @@ void read_course(SuiteFile& file, structured::Files& files) {
   auto reading = report::read_course(drawing);
   const auto wrong = std::find_if(reading.findings.begin(), reading.findings.end(), is_error);
   if (wrong == reading.findings.end()) {
+    for (auto& one : reading.findings)
+      if (one.rule == &report::rules::CourseNarrow)
+        findings.push_back(
+            finding(rules::WallAtStart, given->span, std::move(one.message), std::move(one.help)));
     file.course = std::make_unique<report::Course>(std::move(reading.course));
     return;
   }
@@ -420,6 +426,8 @@ std::vector<Diagnostic> check(const Source& source, structured::Files& files) {
   auto suite = make_suite({{source.name(), std::string(source.text())}}, {}, files);
   if (!suite)
     return {};
+  if (!suite->groups.empty())
+    check_meant(suite->files.front(), suite->programs[suite->groups.front().program]);
   auto& found = suite->files.front().file.diagnostics;
   for (auto& one : found)
     one.severity = one.rule->severity;

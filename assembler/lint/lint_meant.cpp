@@ -5,9 +5,11 @@
 #include "assembler/text/rules.h"
 #include "assembler/text/texts.h"
 #include "repair/tokens.h"
+#include "spec/ball.h"
 
 #include <algorithm>
 #include <array>
+#include <set>
 #include <string>
 #include <utility>
 
@@ -114,14 +116,47 @@ private:
           repair::join(tokens), texts::ZeroIsTheSame());
   }
 
-  /// One roll has the speed of all others as its heading.
+  /// The two numbers of a roll, as they are written; nothing where a name or a unit says which is
+  /// which.
+  static std::vector<std::size_t> exchangeable(const repair::Tokens& tokens,
+                                               const PlacedCommand& roll) {
+    auto two = numbers(tokens, 2);
+    for (std::size_t i = 0; i < two.size(); ++i) {
+      const auto next = two[i] + 1;
+      const bool has_unit = next < tokens.size() && tokens[next].is("deg");
+      if (has_unit || !tokens[two[i]].is(std::to_string(roll.value[i])))
+        return {};
+    }
+    return two;
+  }
+
+  /// The line of a roll with its two numbers exchanged; empty where they cannot be.
+  std::string exchanged(const PlacedCommand& roll) const {
+    auto tokens = split(roll);
+    const auto two = exchangeable(tokens, roll);
+    if (two.empty())
+      return {};
+    std::swap(tokens[two[0]].text, tokens[two[1]].text);
+    return repair::join(tokens);
+  }
+
   void check_exchanged(const AssembledMacro& macro) {
-    std::vector<const PlacedCommand*> all;
+    std::vector<const PlacedCommand*> all; // that drive
+    std::set<std::int32_t> stops;          // the headings of those that stop it
     for (const auto& command : macro.commands)
-      if ((is(command, MacroCommand::Roll) || is(command, MacroCommand::Roll2) ||
-           is(command, MacroCommand::RollSd1)) &&
-          command.value[0] > 0)
-        all.push_back(&command);
+      if (is(command, MacroCommand::Roll) || is(command, MacroCommand::Roll2) ||
+          is(command, MacroCommand::RollSd1)) {
+        if (command.value[0] > 0)
+          all.push_back(&command);
+        else if (!all.empty() && command.value[1] > 0)
+          stops.insert(command.value[1]);
+      }
+    if (!check_usual_speed(all))
+      check_usual_headings(all, stops);
+  }
+
+  /// One roll has the speed of all others as its heading.
+  bool check_usual_speed(const std::vector<const PlacedCommand*>& all) {
     for (const auto* one : all) {
       const auto speed = one->value[1];
       const auto others = std::count_if(all.begin(), all.end(), [&](const PlacedCommand* other) {
@@ -130,15 +165,71 @@ private:
       if (others < 2 || static_cast<std::size_t>(others) + 1 != all.size() ||
           one->value[0] == speed)
         continue;
-      auto tokens = split(*one);
-      const auto two = numbers(tokens, 2);
-      if (two.empty())
-        return;
-      std::swap(tokens[two[0]].text, tokens[two[1]].text);
-      offer(rules::ExchangedRoll, *one, texts::Swapped(one->value[0], speed, speed),
-            repair::join(tokens), texts::SpeedFirst());
-      return;
+      if (const auto line = exchanged(*one); !line.empty())
+        offer(rules::ExchangedRoll, *one, texts::Swapped(one->value[0], speed, speed), line,
+              texts::SpeedFirst());
+      return true;
     }
+    return false;
+  }
+
+  /// The angles that programs turn by are multiples of these.
+  static constexpr std::int32_t eighth = spec::ball::full_circle / 8;
+  static constexpr std::int32_t twelfth = spec::ball::full_circle / 12;
+
+  static bool is_usual_heading(std::int32_t value) {
+    return value % eighth == 0 || value % twelfth == 0;
+  }
+
+  /// Whether what stands in place of the speed looks like a heading, and the other way round.
+  bool is_turned(const PlacedCommand& roll, const std::set<std::int32_t>& stops) const {
+    return roll.value[0] % eighth == 0 && !is_usual_heading(roll.value[1]) &&
+           roll.value[1] <= spec::ball::greatest && !stops.contains(roll.value[1]) &&
+           !exchanged(roll).empty();
+  }
+
+  /// Rolls whose two numbers look like those of the other rolls when they are exchanged.
+  void check_usual_headings(const std::vector<const PlacedCommand*>& all,
+                            const std::set<std::int32_t>& stops) {
+    std::vector<const PlacedCommand*> turned;
+    std::set<std::int32_t> speeds; // of the other ones
+    for (const auto* one : all)
+      if (is_turned(*one, stops))
+        turned.push_back(one);
+      else if (is_usual_heading(one->value[1]) && one->value[0] % eighth != 0)
+        speeds.insert(one->value[0]);
+      else
+        return; // one that looks like neither
+    const auto others = all.size() - turned.size();
+    if (turned.empty())
+      return;
+    if (others == 0)
+      return check_all_turned(turned);
+    if (turned.size() > 1 &&
+        !std::all_of(turned.begin(), turned.end(),
+                     [&](const PlacedCommand* one) { return speeds.contains(one->value[1]); }))
+      return;
+    for (const auto* one : turned)
+      offer(rules::ExchangedRoll, *one, texts::SwappedByLook(one->value[0], one->value[1]),
+            exchanged(*one), texts::SpeedFirst());
+  }
+
+  /// All rolls of a macro are turned, and they do not all go at one speed.
+  void check_all_turned(const std::vector<const PlacedCommand*>& turned) {
+    const auto& first = *turned.front();
+    const auto other = std::find_if(turned.begin(), turned.end(), [&](const PlacedCommand* one) {
+      return one->value[0] != first.value[0];
+    });
+    if (other == turned.end())
+      return;
+    const auto line = exchanged(first);
+    auto d = finding(rules::ExchangedRoll, first.span,
+                     texts::AllSwapped(first.value[0], (*other)->value[0], first.value[1]),
+                     texts::WriteBecause(line, texts::SpeedFirst()));
+    d.fix = Fix{texts::SwapAll(), {}, Safety::Unsafe};
+    for (const auto* one : turned)
+      d.fix->edits.push_back({one->span, exchanged(*one)});
+    diagnostics_.push_back(std::move(d));
   }
 
   template <typename Fits>

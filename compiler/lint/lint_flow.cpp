@@ -117,6 +117,7 @@ private:
         spread(i, inside, marks_, Calls::StepOver);
       }
     check_returns();
+    check_runs_on();
     check_comes_back();
     if (!calls_nest())
       return;
@@ -153,7 +154,7 @@ private:
       reported = true;
       auto& d = findings_.add(rules::FallIntoSubroutine, statement(i - 1).span,
                               texts::FallsIntoSubroutine(number_of(i)), texts::AddEndAfterThis());
-      add_end(d, i);
+      add_above(d, i, "end", texts::EndHere());
       add_note(d, statement(i).span, texts::SubroutineBeginsHere());
     }
     if (reported)
@@ -165,17 +166,62 @@ private:
                       texts::PartOfSubroutine(number_of(jump.to)), texts::CallWithGosub());
   }
 
-  /// Offers an `end` in front of a line of code, where there is a number for it.
-  void add_end(Diagnostic& d, std::uint32_t code) const {
+  /// Offers a line in front of a line of code, where there is a number for it.
+  void add_above(Diagnostic& d, std::uint32_t code, std::string_view word, Message title) const {
     const auto below = number_of(code);
     const auto above = number_of(code - 1);
     if (below < above + 2)
       return;
     const auto number = below > above + 5 ? above + 5 : above + 1;
     const auto at = program_.lines[line_of(code)].span.begin;
-    const auto line = fmt::format("{} end", number);
+    const auto line = fmt::format("{} {}", number, word);
     d.help = texts::WriteAfterThis(line);
-    d.fix = single_fix(texts::EndHere(), {at, at}, line + "\n", Safety::Unsafe);
+    d.fix = single_fix(std::move(title), {at, at}, line + "\n", Safety::Unsafe);
+  }
+
+  /// Subroutines that go on in the next one, for lack of a `return`. Two may share an end on
+  /// purpose: those stand close together, or the first only sets values for the second.
+  void check_runs_on() {
+    for (std::size_t r = 1; r < routines_.size(); ++r) {
+      const auto first = routines_[r - 1];
+      const auto next = routines_[r];
+      if (is(main, next - 1) || !is(inside, next - 1) || !flow_.code[next - 1].falls ||
+          number_of(first) % round_number != 0 || number_of(next) % round_number != 0 ||
+          !stands_apart(first, next) || !acts_alone(first, next) || !falls_to_return(next))
+        continue;
+      auto& d =
+          findings_.add(rules::FallIntoSubroutine, statement(next - 1).span,
+                        texts::RunsOn(number_of(first), number_of(next)), texts::AddReturnAfter());
+      add_above(d, next, "return", texts::ReturnHere());
+      add_note(d, statement(next).span, texts::SubroutineBeginsHere());
+    }
+  }
+
+  /// Whether the line numbers leave more room before a line than between those above it.
+  bool stands_apart(std::uint32_t first, std::uint32_t next) const {
+    std::uint32_t step = usual_step;
+    for (auto i = first + 1; i < next; ++i)
+      step = std::max(step, number_of(i) - number_of(i - 1));
+    return number_of(next) - number_of(next - 1) > step;
+  }
+
+  /// Whether lines do something besides setting values, and lead nowhere else.
+  bool acts_alone(std::uint32_t first, std::uint32_t next) const {
+    bool acts = false;
+    for (auto i = first; i < next; ++i) {
+      if (flow_.code[i].ends)
+        return false;
+      for (const auto& jump : flow_.jumps_of(flow_.code[i]))
+        if (!jump.call && (jump.to < first || jump.to >= next))
+          return false;
+      for (const auto& node : whole(i)) {
+        if (node.error || is_return(node))
+          return false;
+        const auto form = spec::info(node.kind).form;
+        acts = acts || form == spec::Form::Arguments || form == spec::Form::Output;
+      }
+    }
+    return acts;
   }
 
   /// Calls of lines from which no way leads to a `return`.
@@ -386,6 +432,10 @@ private:
     }
     return false;
   }
+
+  /// Where people let subroutines begin, and how far apart they number lines.
+  static constexpr std::uint32_t round_number = 100;
+  static constexpr std::uint32_t usual_step = 10;
 
   /// Beyond these the checks that look at pairs of lines are left out: no area of the robot holds
   /// such a program, and a linter must not take minutes over it.

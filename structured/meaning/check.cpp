@@ -22,8 +22,11 @@ void Checker::run() {
     check_recursion(); // a sub without its end holds the calls below it
   check_unused();
   check_values();
-  if (!any_error(program_.diagnostics))
+  if (!any_error(program_.diagnostics)) {
+    check_parameters();
+    check_indented();
     check_loops();
+  }
 }
 
 Diagnostic& Checker::report(const Rule& rule, Span span, Message message, Message help) {

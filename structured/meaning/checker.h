@@ -213,6 +213,15 @@ private:
   /// A loop that ends with an `exit` that asks nothing.
   void check_single_round(std::uint32_t i);
 
+  // ---- what is hardly meant
+
+  /// A change of a parameter, which the caller never sees.
+  void check_parameters();
+  bool is_read_after(std::uint32_t statement, std::uint32_t symbol) const;
+
+  /// Lines that look as if they belonged to the `if` of one line above them.
+  void check_indented();
+
   // ---- functions without a value
 
   void check_values();

@@ -4,6 +4,8 @@
 #include "base/duration.h"
 #include "base/text/text.h"
 #include "repair/tokens.h"
+#include "report/texts.h"
+#include "spec/ball.h"
 #include "testing/text/rules.h"
 #include "testing/text/texts.h"
 
@@ -33,6 +35,7 @@ public:
       }
     }
     check_stimuli();
+    check_walls();
     return std::move(found_);
   }
 
@@ -178,6 +181,28 @@ private:
       if (time && test != nullptr && *time >= test->bound)
         report(rules::Bound, cursor.span_from(begin), file_texts::EndsBefore(),
                file_texts::LaterAfterWord(info(LineWord::For).word));
+    }
+  }
+
+  /// A wall that stands where the ball does, before anything has moved.
+  void check_walls() {
+    if (!file_.balls.empty())
+      return; // each has a place of its own
+    for (std::uint32_t n = 1; n <= source_.line_count(); ++n) {
+      Cursor cursor(source_, n);
+      const auto begin = cursor.offset();
+      if (!cursor.take_word("wall"))
+        continue;
+      cursor.take_rest();
+      vm::StimulusScript script;
+      vm::read_stimulus_line(source_, n, script);
+      for (const auto& event : script.events)
+        if (const auto* wall = std::get_if<vm::Wall>(&event.stimulus);
+            wall != nullptr && wall->axis != vm::Wall::Axis::None &&
+            std::abs(wall->at_cm) < spec::ball::radius)
+          report(rules::WallAtStart, cursor.span_from(begin),
+                 report::texts::WallIsNear(fmt::format("{}", spec::ball::radius)),
+                 file_texts::MoveWall());
     }
   }
 

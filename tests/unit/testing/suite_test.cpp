@@ -115,7 +115,8 @@ TEST(TestRules, EachBadExampleIsToldAndEachGoodOneIsNot) {
     };
     const bool needs_files = &rule == &rules::File || &rule == &rules::NoProgram ||
                              &rule == &rules::Zone || &rule == &rules::Variable ||
-                             &rule == &rules::Macro || &rule == &rules::KeptVariable;
+                             &rule == &rules::Macro || &rule == &rules::KeptVariable ||
+                             &rule == &rules::OtherLetters || &rule == &rules::OffTheWay;
     EXPECT_NE(told(rule.bad), needs_files) << rule.id;
     EXPECT_FALSE(told(rule.good)) << rule.id;
   }

@@ -1,0 +1,107 @@
+#include "structured/meaning/checker.h"
+
+#include "base/text/text.h"
+
+// What is valid, and does not what its author sees in it.
+
+namespace orb::structured {
+
+// ---- parameters
+
+void Checker::check_parameters() {
+  for (const auto i : program_.order) {
+    if (at(i).kind != Kind::Assign)
+      continue;
+    const auto place = item(at(i), 0).value;
+    const auto symbol = names_.of_node[place];
+    if (program_.nodes[place].kind != NodeKind::Name || symbol == none ||
+        names_.symbols[symbol].kind != SymbolKind::Parameter || is_read_after(i, symbol))
+      continue;
+    const auto routine = names_.routine_of[i];
+    const bool function =
+        names_.symbols[names_.routines[routine].symbol].kind == SymbolKind::Function;
+    if (function && !gives_value(program_, names_, routine))
+      continue; // it lacks its `return`, as is said elsewhere
+    const auto name = program_.name(names_.symbols[symbol].name);
+    report(rules::UnusedName, item(at(i), 0).span, texts::CallerNeverSees(name),
+           function ? texts::ReturnIt(fmt::format("return {}", name))
+                    : texts::FunctionGivesBack(fmt::format("return {}", name)));
+  }
+}
+
+/// Whether a value that a statement gives to a parameter may be read. The ways are not looked at:
+/// what stands below counts, and in a loop, or where there are labels, everything.
+bool Checker::is_read_after(std::uint32_t statement, std::uint32_t symbol) const {
+  const auto begin = names_.routines[names_.routine_of[statement]].statement;
+  auto first = statement + 1;
+  for (auto n = statement; n-- > begin;) {
+    if (at(n).kind == Kind::Label)
+      return true;
+    if (is_loop(at(n).kind) && at(n).next > statement)
+      first = n;
+  }
+  for (auto n = first; n < at(begin).next; ++n)
+    for (std::uint32_t part = 0; part < size(at(n)); ++part) {
+      const auto& one = item(at(n), part);
+      const bool only_set = part == 0 && at(n).kind == Kind::Assign &&
+                            (n == statement || at(n).operation == Statement::none_operation) &&
+                            program_.nodes[one.value].kind == NodeKind::Name;
+      if (!one.has_nodes() || only_set)
+        continue;
+      for (auto node = program_.nodes[one.value].first; node <= one.value; ++node)
+        if (program_.nodes[node].kind == NodeKind::Name && names_.of_node[node] == symbol)
+          return true;
+    }
+  return false;
+}
+
+// ---- indented lines
+
+namespace {
+
+/// The blanks at the beginning of the line of an offset.
+std::string_view indent_at(std::string_view text, std::uint32_t offset) {
+  const auto before = text.find_last_of("\r\n", offset);
+  const auto begin = before == std::string_view::npos ? 0 : before + 1;
+  const auto end = std::min(text.find_first_not_of(" \t", begin), text.size());
+  return text.substr(begin, end - begin);
+}
+
+bool is_deeper(std::string_view inner, std::string_view outer) {
+  return inner.size() > outer.size() && inner.starts_with(outer);
+}
+
+} // namespace
+
+void Checker::check_indented() {
+  const std::string_view text = program_.text;
+  const auto indent = [&](std::uint32_t i) { return indent_at(text, at(i).span.begin); };
+  const auto starts_line = [&](std::uint32_t i) {
+    return at(i).span.size() > 0 && indent(i).end() == text.begin() + at(i).span.begin;
+  };
+  for (const auto& file : program_.files)
+    for (auto i = file.statements_begin; i < file.statements_end; ++i) {
+      if (at(i).kind != Kind::If || !at(i).one_line || !starts_line(i))
+        continue;
+      auto below = i;
+      while (at(below).next != none)
+        below = at(below).next;
+      ++below;
+      if (below >= file.statements_end || at(below).depth != at(i).depth || !starts_line(below) ||
+          !is_deeper(indent(below), indent(i)) || never_reached(i, below) == nullptr)
+        continue;
+      auto above = i; // the statement before it in its block
+      while (above-- > file.statements_begin && at(above).depth >= at(i).depth)
+        if (at(above).depth == at(i).depth && starts_line(above))
+          break;
+      if (above < i && above >= file.statements_begin && at(above).depth == at(i).depth &&
+          is_deeper(indent(above), indent(i)))
+        continue; // it is the `if` that stands too far left
+      const Span head{at(i).span.begin, item(at(i), 0).span.end};
+      auto& d = report(rules::MisleadingIndent, at(below).span, texts::RunsAnyway(),
+                       texts::MakeABlock(fmt::format("{} then", program_.text_of(head)), "end if"));
+      d.notes.push_back({head, texts::IfEndsHere()});
+    }
+}
+
+} // namespace orb::structured
