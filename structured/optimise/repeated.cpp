@@ -1,6 +1,5 @@
 #include "structured/optimise/repeated.h"
 
-#include "structured/analyse/orders.h"
 #include "structured/analyse/ranges.h"
 
 #include <algorithm>
@@ -125,12 +124,8 @@ private:
       others.push_back(i);
       alike_[key_of(line.term)].push_back(i);
     }
-    orders_ = read_orders(code_, deeds_);
     read_.assign(deeds_, {});
     spoilt_by_ = VariableSets(code_.variables.size(), deeds_);
-    for (const auto& pair : orders_.pairs)
-      for (const auto term : {pair.left, pair.right})
-        each_read(code_, term, [&](std::uint32_t v) { pair.insert_in(spoilt_by_[v], all_orders); });
     for (std::uint32_t i = 0; i < code_.lines.size(); ++i) {
       const auto& line = code_.lines[i];
       const auto deed = deed_of_[i];
@@ -320,8 +315,6 @@ private:
     if (!ends)
       return changed;
     const auto& last = code_.lines[block.end - 1];
-    if (orders_.tests[block.end - 1].pair != none)
-      return leave_test(b, block.end - 1) || changed;
     for (const auto next : flow_.successors_of(block))
       changed = enter(next) || changed;
     if (last.kind == LineKind::Return) {
@@ -329,24 +322,6 @@ private:
       comes_back_[last.routine] = true;
       changed = unite(returned_[last.routine], stale_) || first || changed;
     }
-    return changed;
-  }
-
-  /// Goes on from a test with the orders that lead each way.
-  bool leave_test(std::uint32_t b, std::uint32_t i) {
-    const auto holds = orders_.tests[i].holds;
-    const auto& pair = orders_.pairs[orders_.tests[i].pair];
-    const auto orders = pair.in(stale_);
-    bool changed = false;
-    const auto leave = [&](std::uint32_t block, unsigned others) {
-      if (block >= flow_.blocks.size() || (orders & ~others) == 0)
-        return;
-      pair.remove_from(stale_, others);
-      changed = enter(block) || changed;
-      pair.insert_in(stale_, orders & others);
-    };
-    leave(flow_.block_of_label[code_.lines[i].label], all_orders & ~holds);
-    leave(b + 1, holds);
     return changed;
   }
 
@@ -375,8 +350,6 @@ private:
       if (ranges_.reaches(b))
         walk(b, [&](std::uint32_t i) {
           auto& line = code_.lines[i];
-          if (orders_.tests[i].pair != none)
-            any = decide(i) || any;
           if (deed_of_[i] != none && !contains(stale_, deed_of_[i]))
             dropped.push_back(i);
           else if (line.kind == LineKind::Let && deed_of_[i] != none)
@@ -385,18 +358,6 @@ private:
     for (const auto i : dropped)
       code_.lines[i].kind = LineKind::Nothing;
     return any || !dropped.empty();
-  }
-
-  /// What a test finds, where another has found it before.
-  bool decide(std::uint32_t i) {
-    const auto& test = orders_.tests[i];
-    const auto orders = orders_.pairs[test.pair].in(stale_);
-    auto& line = code_.lines[i];
-    if ((orders & test.holds) == 0)
-      line.kind = LineKind::Nothing;
-    else if ((orders & ~test.holds) == 0)
-      line.kind = LineKind::Goto;
-    return line.kind != LineKind::If;
   }
 
   bool read_other(CodeLine& line) {
@@ -420,7 +381,6 @@ private:
   std::vector<std::uint32_t> deed_of_;              ///< of each line: its number, or none
   std::uint32_t deeds_ = 0;
   std::uint32_t first_set_ = 0; ///< the first number of a way to set a variable
-  Orders orders_; ///< that terms which several tests compare can have: stale where they can
   std::vector<Elements> read_;         ///< of each of them; of routines with all that they call
   std::vector<std::uint32_t> readers_; ///< those that read elements
   std::vector<Elements> stored_;       ///< of each routine, with all that it calls
