@@ -3,8 +3,6 @@
 #include "structured/analyse/ranges.h"
 
 #include <algorithm>
-#include <map>
-#include <utility>
 
 namespace orb::structured {
 namespace {
@@ -20,19 +18,6 @@ public:
         repeatable_(code.routines.size(), true), changed_(code.routines.size()),
         deed_of_(code.lines.size(), none), stored_(code.routines.size()),
         stores_(code.lines.size()) {}
-
-  /// Whether a routine that only computes is called more than once.
-  bool any() {
-    find_repeatable();
-    std::vector<bool> called(repeatable_.size(), false);
-    return std::any_of(code_.lines.begin(), code_.lines.end(), [&](const CodeLine& line) {
-      const auto callee = callee_of(line);
-      const bool again = callee != none && repeatable_[callee] && called[callee];
-      if (callee != none)
-        called[callee] = true;
-      return again;
-    });
-  }
 
   /// Drops what need not be done again; true where there was any.
   bool run() {
@@ -77,11 +62,6 @@ private:
     return !itself;
   }
 
-  /// What terms that are the same have in common.
-  std::pair<int, int> key_of(std::uint32_t term) const {
-    return {code_.terms[term].what, code_.terms[term].size};
-  }
-
   /// Routines that only compute, and what each of them changes of what it computes from.
   void find_repeatable() {
     repeatable_[0] = false;
@@ -122,7 +102,6 @@ private:
       }
       deed_of_[i] = deeds_++;
       others.push_back(i);
-      alike_[key_of(line.term)].push_back(i);
     }
     read_.assign(deeds_, {});
     spoilt_by_ = VariableSets(code_.variables.size(), deeds_);
@@ -342,34 +321,18 @@ private:
     return true;
   }
 
-  /// Drops what need not be done again, and reads what another variable has been set to.
+  /// Drops what need not be done again.
   bool rewrite() {
     std::vector<std::uint32_t> dropped; // lines
-    bool any = false;
     for (std::uint32_t b = 0; b < flow_.blocks.size(); ++b)
       if (ranges_.reaches(b))
         walk(b, [&](std::uint32_t i) {
-          auto& line = code_.lines[i];
           if (deed_of_[i] != none && !contains(stale_, deed_of_[i]))
             dropped.push_back(i);
-          else if (line.kind == LineKind::Let && deed_of_[i] != none)
-            any = read_other(line) || any;
         });
     for (const auto i : dropped)
       code_.lines[i].kind = LineKind::Nothing;
-    return any || !dropped.empty();
-  }
-
-  bool read_other(CodeLine& line) {
-    if (code_.terms[line.term].size == 1)
-      return false;
-    for (const auto i : alike_[key_of(line.term)])
-      if (const auto& other = code_.lines[i];
-          !contains(stale_, deed_of_[i]) && same(code_, other.term, line.term)) {
-        line.term = code_.read(other.variable);
-        return true;
-      }
-    return false;
+    return !dropped.empty();
   }
 
   Code& code_;
@@ -385,7 +348,6 @@ private:
   std::vector<std::uint32_t> readers_; ///< those that read elements
   std::vector<Elements> stored_;       ///< of each routine, with all that it calls
   std::vector<Elements> stores_;       ///< of each line itself
-  std::map<std::pair<int, int>, std::vector<std::uint32_t>> alike_; ///< lines that set variables
   VariableSets spoilt_by_;       ///< of each variable: what must be done again when it is set
   VariableSets begins_;          ///< of each block: what is stale at its begin
   VariableSets returned_;        ///< of each routine: what is where it returns
@@ -395,10 +357,6 @@ private:
 };
 
 } // namespace
-
-bool calls_repeat(Code& code) {
-  return RepeatFinder(code).any();
-}
 
 bool drop_repeated(Code& code) {
   return RepeatFinder(code).run();
