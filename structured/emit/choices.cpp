@@ -2,7 +2,6 @@
 
 #include "structured/analyse/flow.h"
 #include "structured/analyse/sizes.h"
-#include "structured/emit/fall.h"
 #include "structured/optimise/arms.h"
 #include "structured/optimise/counted.h"
 #include "structured/optimise/jumps.h"
@@ -660,7 +659,6 @@ void write_choices(Code& code, const Letters& letters, const Program& program) {
   };
   put_end_last(code);
   clean_jumps(code);
-  fall_through_tests(code);
   count_loops(code, letter);
   clean_jumps(code);
   ChoiceWriter(code, program, letter).run();
