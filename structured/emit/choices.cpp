@@ -657,8 +657,6 @@ void write_choices(Code& code, const Letters& letters, const Program& program) {
   const Identity letter = [&](std::uint32_t variable) {
     return std::uint32_t{letters.of[variable]};
   };
-  put_end_last(code);
-  clean_jumps(code);
   count_loops(code, letter);
   clean_jumps(code);
   ChoiceWriter(code, program, letter).run();

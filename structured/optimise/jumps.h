@@ -15,10 +15,6 @@ bool clean_jumps(Code& code);
 /// Puts lines that only jumps lead to where one of those jumps stands. True where there were any.
 bool straighten(Code& code);
 
-/// Moves what the program ends with behind the rest, where nothing else is longer for it: at the
-/// end of its text it needs no `end`.
-void put_end_last(Code& code);
-
 /// Of each line: the label of the innermost loop of the robot that it stands in, or none.
 std::vector<std::uint32_t> loops_of_lines(const Code& code);
 
