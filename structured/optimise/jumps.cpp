@@ -239,10 +239,4 @@ bool clean_jumps(Code& code) {
   return Cleaner(code).run();
 }
 
-bool only_jump_leads_to(const Code& code, std::span<const std::uint32_t> named,
-                        std::span<const std::uint32_t> at, std::uint32_t label) {
-  return named[label] == 1 && at[label] != none && at[label] > 0 &&
-         !falls_through(code.lines[at[label] - 1]);
-}
-
 } // namespace orb::structured

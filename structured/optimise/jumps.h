@@ -24,9 +24,4 @@ std::vector<std::uint32_t> lines_of_labels(const Code& code);
 /// Takes out lines that do nothing and labels that nothing names; the same.
 std::vector<std::uint32_t> tidy(Code& code);
 
-/// Whether one line leads to a label, and that is a jump; `named` as tidy() and `at` as
-/// lines_of_labels() tell it.
-bool only_jump_leads_to(const Code& code, std::span<const std::uint32_t> named,
-                        std::span<const std::uint32_t> at, std::uint32_t label);
-
 } // namespace orb::structured
