@@ -48,9 +48,9 @@ private:
     const auto sites = sites_[routine];
     if (sites == 0)
       return false;
-    return sites == 1 || sites * bytes_[routine] <=
-                             call_bytes_[routine] + bytes_[routine] + return_bytes + slack +
-                                 tested_[routine] * result_bytes_[routine];
+    return sites == 1 || sites * bytes_[routine] <= call_bytes_[routine] + bytes_[routine] +
+                                                        return_bytes + slack +
+                                                        tested_[routine] * result_bytes_[routine];
   }
 
   /// Routines that set the same variable to a number each time they return: where it is only

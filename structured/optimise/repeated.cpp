@@ -343,16 +343,16 @@ private:
   std::vector<std::vector<std::uint32_t>> changed_; ///< of each: what it reads, and then sets
   std::vector<std::uint32_t> deed_of_;              ///< of each line: its number, or none
   std::uint32_t deeds_ = 0;
-  std::uint32_t first_set_ = 0; ///< the first number of a way to set a variable
+  std::uint32_t first_set_ = 0;        ///< the first number of a way to set a variable
   std::vector<Elements> read_;         ///< of each of them; of routines with all that they call
   std::vector<std::uint32_t> readers_; ///< those that read elements
   std::vector<Elements> stored_;       ///< of each routine, with all that it calls
   std::vector<Elements> stores_;       ///< of each line itself
-  VariableSets spoilt_by_;       ///< of each variable: what must be done again when it is set
-  VariableSets begins_;          ///< of each block: what is stale at its begin
-  VariableSets returned_;        ///< of each routine: what is where it returns
-  std::vector<bool> entered_;    ///< of each block: something comes to it
-  std::vector<bool> comes_back_; ///< of each routine
+  VariableSets spoilt_by_;             ///< of each variable: what must be done again when it is set
+  VariableSets begins_;                ///< of each block: what is stale at its begin
+  VariableSets returned_;              ///< of each routine: what is where it returns
+  std::vector<bool> entered_;          ///< of each block: something comes to it
+  std::vector<bool> comes_back_;       ///< of each routine
   std::vector<std::uint64_t> stale_;
 };
 

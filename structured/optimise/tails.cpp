@@ -164,8 +164,7 @@ private:
       return false;
     if (a.kind != LineKind::If)
       return does_same(code_, a, b);
-    return a.label == b.label &&
-           same(code_.conditions[a.condition], code_.conditions[b.condition]);
+    return a.label == b.label && same(code_.conditions[a.condition], code_.conditions[b.condition]);
   }
 
   bool same(const Condition& a, const Condition& b) const {
