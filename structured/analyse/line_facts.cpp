@@ -75,14 +75,4 @@ bool LineFacts::ends_text(const CodeLine& line) {
   return line.kind == LineKind::Label || line.kind == LineKind::Next || !falls_through(line);
 }
 
-bool LineFacts::differ(std::uint32_t a, std::uint32_t b) const {
-  const auto one = sum_of(code_, a);
-  const auto other = sum_of(code_, b);
-  const bool alike = one.base == none || other.base == none ? one.base == other.base
-                                                            : same(code_, one.base, other.base);
-  // They wrap around.
-  return alike &&
-         static_cast<std::uint32_t>(one.number) != static_cast<std::uint32_t>(other.number);
-}
-
 } // namespace orb::structured

@@ -17,8 +17,6 @@ public:
   /// Writes or reads.
   bool touches(const CodeLine& line, std::uint32_t variable) const;
   bool sets_elements(const CodeLine& line) const;
-  /// Whether a line changes what a term reads.
-  bool disturbs(const CodeLine& line, std::uint32_t term) const;
   /// Whether a term can be computed after a line instead of before it.
   bool passes(const CodeLine& line, std::uint32_t term) const;
   /// Whether straight text ends at a line: what follows may come from elsewhere.
@@ -26,10 +24,10 @@ public:
 
   /// Whether a term reads a variable.
   bool reads(std::uint32_t term, std::uint32_t variable) const;
-  /// Whether two indices are certainly not the same: numbers, or sums that differ in their numbers.
-  bool differ(std::uint32_t a, std::uint32_t b) const;
 
 private:
+  /// Whether a line changes what a term reads.
+  bool disturbs(const CodeLine& line, std::uint32_t term) const;
   std::uint8_t effects_of(const CodeLine& line) const;
 
   const Code& code_;

@@ -25,14 +25,6 @@ void each_number(const Code& code, std::uint32_t term, Visit visit) {
     each_number(code, node.right, visit);
 }
 
-/// Leaves of `range` what lies in `other`, too; false where nothing does.
-bool confine(Range& range, Range other) {
-  if (range.misses(other.lo, other.hi))
-    return false;
-  range = {std::max(range.lo, other.lo), std::min(range.hi, other.hi)};
-  return true;
-}
-
 } // namespace
 
 std::optional<compiler::Range> where(Comparison comparison, compiler::Range left,
@@ -74,7 +66,6 @@ Range Ranges::range_of(std::uint32_t term, const State& state) const {
 /// The variables whose values matter at the begin of each block.
 void Ranges::find_tracked() {
   const auto liveness = read_liveness(code_, flow_, Counting::SettingsToo);
-  find_proofs(liveness);
   begins_.reserve(flow_.blocks.size() + 1);
   for (std::uint32_t b = 0; b < flow_.blocks.size(); ++b) {
     begins_.push_back(static_cast<std::uint32_t>(tracked_.size()));
@@ -90,24 +81,10 @@ void Ranges::find_tracked() {
     });
 }
 
-/// What lines prove of variables whose ranges are known there: those that nothing reads have none.
-void Ranges::find_proofs(const Liveness& liveness) {
-  proofs_ = proofs_of(code_);
-  for (std::uint32_t b = 0; b < flow_.blocks.size(); ++b) {
-    const auto live = liveness.in[b];
-    std::vector<std::uint64_t> known(live.begin(), live.end());
-    for (auto i = flow_.blocks[b].begin; i < flow_.blocks[b].end; ++i) {
-      if (proofs_[i].variable != none && !contains(known, proofs_[i].variable))
-        proofs_[i] = {};
-      each_write(code_, code_.lines[i], [&](std::uint32_t v) { insert(known, v); });
-    }
-  }
-}
-
 /// Numbers at which growing ranges stop first: those that tests, loops and
 /// assignments name, and their neighbours.
 void Ranges::find_landmarks() {
-  std::vector<std::int32_t> named{-most_count, most_count};
+  std::vector<std::int32_t> named;
   for (const auto& line : code_.lines)
     if (line.kind == LineKind::If || line.kind == LineKind::For || line.kind == LineKind::Let)
       each_root(code_, line, [&](std::uint32_t root) {
@@ -136,7 +113,6 @@ bool Ranges::follow() {
   if (blocks * code_.variables.size() > most_cells)
     return false;
   find_tracked();
-  counts_ = counters_of(code_);
   find_landmarks();
   find_data();
   for (std::uint32_t b = 0; b < blocks; ++b)
@@ -221,16 +197,12 @@ void Ranges::visit(std::uint32_t b) {
 
 // ---- lines
 
-/// Goes over a line; false where nothing comes back from its call yet, or it stops the program.
+/// Goes over a line; false where nothing comes back from its call yet.
 bool Ranges::step(std::uint32_t b, const CodeLine& line, State& state) {
   if (const auto callee = callee_of(line); callee != none)
     return call(callee, state, b);
   set(line, state);
-  if (line.kind == LineKind::Let && counts_[line.variable] &&
-      !confine(state[line.variable], {-most_count, most_count}))
-    return false;
-  const auto& proof = proofs_[static_cast<std::size_t>(&line - code_.lines.data())];
-  return proof.variable == none || confine(state[proof.variable], proof.range);
+  return true;
 }
 
 /// An element of some array gets a value of a range: those who read one look again.

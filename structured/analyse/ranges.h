@@ -2,7 +2,6 @@
 
 #include "compiler/lint/range.h"
 #include "structured/analyse/flow.h"
-#include "structured/analyse/proofs.h"
 
 #include <optional>
 #include <vector>
@@ -68,7 +67,6 @@ private:
   };
 
   void find_tracked();
-  void find_proofs(const Liveness& liveness);
   void find_landmarks();
   void find_data();
 
@@ -105,8 +103,6 @@ private:
   std::vector<std::uint32_t> nexts_;   ///< of each loop's label: the block that ends in its `next`
   std::vector<Returned> returns_;
   std::vector<std::int32_t> landmarks_;
-  std::vector<bool> counts_;  ///< of each variable
-  std::vector<Proof> proofs_; ///< of each line
   compiler::Range data_;
   compiler::Range elements_ = compiler::Range::only(0); ///< of all arrays
   std::vector<std::uint32_t> element_readers_;          ///< blocks

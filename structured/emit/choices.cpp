@@ -2,16 +2,12 @@
 
 #include "structured/analyse/flow.h"
 #include "structured/analyse/sizes.h"
-#include "structured/emit/fall.h"
 #include "structured/optimise/arms.h"
 #include "structured/optimise/counted.h"
 #include "structured/optimise/jumps.h"
-#include "structured/optimise/tails.h"
 #include "structured/text/words.h"
 
 #include <algorithm>
-#include <limits>
-#include <optional>
 
 namespace orb::structured {
 namespace {
@@ -52,15 +48,11 @@ public:
     reads_ = reads_of(code_);
     while (join_tests())
       ;
-    join_heads();
     pair_arms();
     return_at_once();
-    turn_branches();
     fold_branches();
     finish_tests();
     end_at_once();
-    call_last();
-    end_at_once(); // where jumps lead to what was a call
     while (remove_unreached())
       ;
   }
@@ -91,65 +83,6 @@ private:
     return leans;
   }
 
-  /// Two relations that are one: of the same terms, or `x < 5 and x > -5`, which is `abs x < 5`.
-  std::optional<Relation> as_one(const Condition& joined) {
-    auto one = joined.first;
-    const auto& other = joined.second;
-    const bool all = joined.glue == Glue::And;
-    if (!structured::is_pure(effects_of(joined)) || !same(code_, one.left, other.left))
-      return std::nullopt;
-    if (same(code_, one.right, other.right)) {
-      const auto orders = all ? orders_of(one.comparison) & orders_of(other.comparison)
-                              : orders_of(one.comparison) | orders_of(other.comparison);
-      for (const auto comparison :
-           {Comparison::Equal, Comparison::NotEqual, Comparison::Less, Comparison::LessEqual,
-            Comparison::Greater, Comparison::GreaterEqual})
-        if (orders_of(comparison) == orders) {
-          one.comparison = comparison;
-          return one;
-        }
-      return std::nullopt;
-    }
-    return as_distance(one, other, all);
-  }
-
-  /// The values that an ordering relation with a number takes end here, that number included.
-  std::optional<std::int64_t> end_of(const Relation& relation) const {
-    if (!code_.is_number(relation.right))
-      return std::nullopt;
-    const std::int64_t number = code_.terms[relation.right].value;
-    switch (relation.comparison) {
-    case Comparison::Less: return number - 1;
-    case Comparison::Greater: return number + 1;
-    case Comparison::LessEqual:
-    case Comparison::GreaterEqual: return number;
-    case Comparison::Equal:
-    case Comparison::NotEqual: break;
-    }
-    return std::nullopt;
-  }
-
-  std::optional<Relation> as_distance(const Relation& one, const Relation& other, bool within) {
-    const auto is_upper = [](const Relation& relation) {
-      return relation.comparison == Comparison::Less ||
-             relation.comparison == Comparison::LessEqual;
-    };
-    const auto end = end_of(is_upper(one) ? one : other);
-    const auto begin = end_of(is_upper(one) ? other : one);
-    using Limits = std::numeric_limits<std::int32_t>;
-    if (!end || !begin || is_upper(one) == is_upper(other) || *end != -*begin ||
-        (within ? *end < 0 || *end == Limits::max() : *begin <= 0) ||
-        one.left_range.lo == Limits::min() || code_.terms[one.left].size > 1)
-      return std::nullopt;
-    auto distance = one;
-    distance.comparison = within ? Comparison::Less : Comparison::Greater;
-    distance.left = code_.call(spec::Function::Abs, one.left);
-    distance.right = code_.number(static_cast<std::int32_t>(within ? *end + 1 : *begin - 1));
-    distance.left_range = compiler::apply(spec::Function::Abs, one.left_range);
-    distance.right_range = compiler::Range::only(code_.terms[distance.right].value);
-    return distance;
-  }
-
   /// Two tests in a row as one with `and` or `or`. The robot always computes both, so the second
   /// must do nothing but give a value.
   bool join_tests() {
@@ -177,10 +110,6 @@ private:
       } else {
         continue;
       }
-      if (const auto one = as_one(joined)) {
-        joined = {};
-        joined.first = *one;
-      }
       // One of the two ways to say it is needed later.
       if (!can_say(code_, joined) && !can_say(code_, opposite_of(joined)))
         continue;
@@ -193,30 +122,6 @@ private:
       ++i;
     }
     return changed;
-  }
-
-  /// Two ways from a test that begin with the same do it before the test.
-  void join_heads() {
-    named_ = tidy(code_);
-    at_ = lines_of_labels(code_);
-    auto& lines = code_.lines;
-    bool any = false;
-    for (auto i = static_cast<std::uint32_t>(lines.size()); i-- > 0;) {
-      if (lines[i].kind != LineKind::If || !only_jump_leads_to(code_, named_, at_, lines[i].label))
-        continue;
-      for (auto test = i, other = at_[lines[i].label] + 1;
-           test + 1 < lines.size() && other < lines.size(); ++test, ++other) {
-        if (!does_same(code_, lines[test + 1], lines[other]) ||
-            !passes(lines[test], lines[test + 1]))
-          break;
-        join_knowledge(code_, lines[test + 1], lines[other]);
-        lines[other].kind = LineKind::Nothing;
-        std::swap(lines[test], lines[test + 1]);
-        any = true;
-      }
-    }
-    if (any)
-      clean_jumps(code_); // nothing may be left of a way
   }
 
   /// Arms of two lines, or of two and one: tested again, each line of one and that of the other are
@@ -435,37 +340,6 @@ private:
       ;
   }
 
-  /// Of two ways that meet again, the one whose test the robot has comes first.
-  void turn_branches() {
-    named_ = tidy(code_);
-    auto& lines = code_.lines;
-    const auto at = lines_of_labels(code_);
-    for (std::uint32_t i = 0; i < lines.size(); ++i) {
-      if (lines[i].kind != LineKind::If)
-        continue;
-      auto& condition = code_.conditions[lines[i].condition];
-      const auto other = at[lines[i].label];
-      if (condition.glue != Glue::None || !is_missing(condition.first.comparison) ||
-          other == none || other < i + 3 || named_[lines[i].label] != 1 ||
-          lines[other - 1].kind != LineKind::Goto)
-        continue;
-      const auto end = at[lines[other - 1].label];
-      if (end == none || end < other + 2 || !falls(lines[end - 1]))
-        continue;
-      const bool plain = std::none_of(lines.begin() + i + 1, lines.begin() + end, [&](auto& line) {
-        return (line.kind == LineKind::Label && line.label != lines[other].label) ||
-               line.kind == LineKind::If || line.kind == LineKind::Next;
-      });
-      if (!plain)
-        continue;
-      condition = opposite_of(condition);
-      std::rotate(lines.begin() + i + 1, lines.begin() + other + 1, lines.begin() + end);
-      const auto moved = i + 1 + (end - other - 1);
-      std::rotate(lines.begin() + moved, lines.begin() + moved + (other - 1 - (i + 1)),
-                  lines.begin() + end);
-    }
-  }
-
   void fold_branches() {
     named_ = tidy(code_);
     at_ = lines_of_labels(code_);
@@ -583,16 +457,6 @@ private:
     return i;
   }
 
-  /// What a sub calls last returns for it.
-  void call_last() {
-    for (std::uint32_t i = 0; i < code_.lines.size(); ++i) {
-      const auto after = past_labels(i + 1);
-      if (code_.lines[i].kind == LineKind::Gosub && after < code_.lines.size() &&
-          code_.lines[after].kind == LineKind::Return)
-        code_.lines[i].kind = LineKind::Goto;
-    }
-  }
-
   /// A jump to a `return`, an `end` or another jump is that itself.
   void end_at_once() {
     tidy(code_);
@@ -658,9 +522,6 @@ void write_choices(Code& code, const Letters& letters, const Program& program) {
   const Identity letter = [&](std::uint32_t variable) {
     return std::uint32_t{letters.of[variable]};
   };
-  put_end_last(code);
-  clean_jumps(code);
-  fall_through_tests(code);
   count_loops(code, letter);
   clean_jumps(code);
   ChoiceWriter(code, program, letter).run();

@@ -86,22 +86,14 @@ private:
       relation.right_range = compiler::Range::only(code_.terms[relation.right].value);
     loop.end = relation.right_range;
     using Limits = std::numeric_limits<std::int32_t>;
-    const auto& [counted, end] = std::pair{relation.left_range, relation.right_range};
     const bool up = loop.step > 0;
-    // Counting to a number, it never comes past it.
-    const bool arrives = relation.comparison == Comparison::NotEqual &&
-                         (up ? counted.hi <= end.lo : counted.lo >= end.hi);
     if (relation.comparison == (up ? Comparison::LessEqual : Comparison::GreaterEqual))
       return relation.right;
-    if (relation.comparison != (up ? Comparison::Less : Comparison::Greater) && !arrives)
+    if (relation.comparison != (up ? Comparison::Less : Comparison::Greater))
       return none;
-    if (up ? end.lo == Limits::min() : end.hi == Limits::max())
+    if (up ? loop.end.lo == Limits::min() : loop.end.hi == Limits::max())
       return none;
     return code_.binary(up ? Operator::Subtract : Operator::Add, relation.right, code_.number(1));
-  }
-
-  bool is_within(const Loop& loop, std::uint32_t label) const {
-    return at_[label] != none && loop.begin < at_[label] && at_[label] < loop.test;
   }
 
   bool is(std::uint32_t i, LineKind kind) const {
@@ -132,8 +124,7 @@ private:
   }
 
   /// Whether nothing leads into a loop but its begin, and what leads out of it, before its test,
-  /// can end it: it leads where nothing else does, or right behind the loop, and the variable is
-  /// not needed there.
+  /// can end it: it leads where nothing else does, and the variable is not needed there.
   bool can_be_left(const Loop& loop) {
     const auto& lines = code_.lines;
     std::vector<std::uint32_t> inside(code_.labels, 0); // how often labels are named there
@@ -157,7 +148,7 @@ private:
       const auto at = at_[label];
       const bool apart = at != none && at > 0 && inside[label] == named_[label] &&
                          !falls_through(lines[at - 1]) && !is(at + 2, LineKind::Next);
-      good = good && !lines[line].guard && (apart || leads_behind(loop, line));
+      good = good && !lines[line].guard && apart;
       if (good)
         each_member(liveness.in[flow_.block_of_label[label]], [&](std::uint32_t v) {
           good = good && identity_(v) != identity_(loop.variable);
@@ -167,14 +158,6 @@ private:
     const bool passes = loop.step > 0 ? loop.end.hi <= Limits::max() - loop.step
                                       : loop.end.lo >= Limits::min() - loop.step;
     return good && passes && !code_.variables[loop.variable].kept;
-  }
-
-  /// Whether line `i` leads right behind a loop.
-  bool leads_behind(const Loop& loop, std::uint32_t i) const {
-    auto n = loop.test + 1;
-    while (is(n, LineKind::Label) && code_.lines[n].label != code_.lines[i].label)
-      ++n;
-    return is(n, LineKind::Label) && (is(i, LineKind::If) || is(i, LineKind::Goto));
   }
 
   /// Whether the robot keeps a loop open: a `for` with the same variable would take its place.
@@ -228,15 +211,6 @@ private:
     next.term = none;
     const auto end = next;
     lines[loop.count].kind = LineKind::Nothing;
-    std::vector<std::uint32_t> behind;
-    std::erase_if(exits_, [&](const auto& exit) {
-      const bool leads = leads_behind(loop, exit.first);
-      if (leads)
-        behind.push_back(exit.first);
-      return leads;
-    });
-    if (!behind.empty())
-      make_last(loop.count, behind, set);
     if (auto& start = lines[loop.begin - (loop.begin > 0 ? 1 : 0)];
         start.kind == LineKind::Let && start.variable == loop.variable && !start.guard) {
       first.term = start.term;
@@ -245,35 +219,6 @@ private:
     lines.insert(lines.begin() + loop.begin, first);
     for (const auto& [line, label] : exits_)
       end_at(label, set, end);
-  }
-
-  /// What leads behind a loop makes its turn the last one, and leads to the counting.
-  void make_last(std::uint32_t count, const std::vector<std::uint32_t>& exits, CodeLine set) {
-    auto& lines = code_.lines;
-    const auto exit = exits.back();
-    auto jump = lines[exit];
-    jump.kind = LineKind::Goto;
-    jump.label = code_.labels++;
-    set.origin = jump.origin;
-    const auto label = [&](std::uint32_t name) {
-      auto line = jump;
-      line.kind = LineKind::Label;
-      line.label = name;
-      return line;
-    };
-    std::vector<CodeLine> last{label(code_.labels++), set, jump};
-    for (const auto other : exits)
-      lines[other].label = last.front().label;
-    if (is(exit, LineKind::If)) {
-      auto& comparison = code_.conditions[lines[exit].condition].first.comparison;
-      comparison = opposite(comparison);
-      lines[exit].label = code_.labels++;
-      last.push_back(label(lines[exit].label));
-    } else {
-      lines[exit].kind = LineKind::Nothing;
-    }
-    lines.insert(lines.begin() + count, label(jump.label));
-    lines.insert(lines.begin() + exit + 1, last.begin(), last.end());
   }
 
   /// Where only exits lead, the loop is ended first.

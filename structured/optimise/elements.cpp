@@ -1,11 +1,9 @@
 #include "structured/optimise/elements.h"
 
-#include "spec/limits.h"
 #include "structured/analyse/flow.h"
 #include "structured/analyse/line_facts.h"
 
 #include <algorithm>
-#include <optional>
 
 namespace orb::structured {
 namespace {
@@ -19,8 +17,6 @@ public:
   bool run() {
     count();
     bool changed = false;
-    for (std::uint32_t b = 0; b < flow_.blocks.size(); ++b)
-      changed = read_at_once(b) || changed;
     for (std::uint32_t i = 0; i < code_.lines.size(); ++i)
       changed = read_there(i) || changed;
     return changed;
@@ -32,67 +28,6 @@ private:
     for (const auto& line : code_.lines)
       each_write(code_, line, [&](std::uint32_t v) { ++writes_[v]; });
   }
-
-  // ---- `read v`, `a[i] = v`
-
-  bool read_at_once(std::uint32_t b) {
-    const auto& block = flow_.blocks[b];
-    bool changed = false;
-    const auto out = liveness_.out[b];
-    std::vector<std::uint64_t> live(out.begin(), out.end());
-    for (auto i = block.end; i-- > block.begin;) {
-      const auto& line = code_.lines[i];
-      if (line.kind == LineKind::SetElement && line.proven && put(block.begin, i, live))
-        changed = true;
-      step_back(code_, flow_, liveness_, code_.lines[i], live);
-    }
-    return changed;
-  }
-
-  /// Whether the value of line `i` comes from a statement above it that can set the element itself,
-  /// in whose place only values for the index are computed.
-  bool put(std::uint32_t begin, std::uint32_t i, std::span<const std::uint64_t> live) {
-    const auto& value = code_.terms[code_.lines[i].term];
-    if (value.kind != TermKind::Variable || contains(live, value.left) ||
-        value.left == index_variable || code_.variables[value.left].kept)
-      return false;
-    for (auto n = i; n-- > begin;) {
-      auto& line = code_.lines[n];
-      if (line.kind == LineKind::Nothing)
-        continue;
-      const bool idle =
-          (line.kind == LineKind::Let && is_pure(effects_of(code_, line))) ||
-          (line.kind == LineKind::SetElement && line.proven && is_pure(effects_of(code_, line)));
-      if (idle && !facts_.touches(line, value.left))
-        continue;
-      return is_last_of(line, value.left) && falls_through(line) && take_last(n, i);
-    }
-    return false;
-  }
-
-  bool is_last_of(const CodeLine& line, std::uint32_t variable) const {
-    if (line.kind != LineKind::Do || line.parts_end == line.parts_begin)
-      return false;
-    const auto& last = code_.parts[line.parts_end - 1];
-    const bool alone = line.parts_end - line.parts_begin == 1;
-    return last.kind == PartKind::Variable && last.value == variable &&
-           (alone || line.robot == spec::Statement::Read);
-  }
-
-  /// Line `to` reads the last of what line `from` reads.
-  bool take_last(std::uint32_t from, std::uint32_t to) {
-    auto& line = code_.lines[from];
-    const auto begin = static_cast<std::uint32_t>(code_.parts.size());
-    code_.parts.push_back({PartKind::Element, none, {}, {}});
-    code_.lines[to] = line;
-    code_.lines[to].parts_begin = begin;
-    code_.lines[to].parts_end = begin + 1;
-    if (--line.parts_end == line.parts_begin)
-      line.kind = LineKind::Nothing;
-    return true;
-  }
-
-  // ---- `v = a[i]`
 
   bool read_there(std::uint32_t i) {
     const auto line = code_.lines[i];
@@ -163,8 +98,7 @@ private:
 
 bool use_elements(Code& code) {
   const bool any = std::any_of(code.lines.begin(), code.lines.end(), [&](const CodeLine& line) {
-    return line.kind == LineKind::SetElement ||
-           (line.kind == LineKind::Let && code.terms[line.term].kind == TermKind::Element);
+    return line.kind == LineKind::Let && code.terms[line.term].kind == TermKind::Element;
   });
   return any && ElementUser(code).run();
 }

@@ -29,7 +29,7 @@ bool is_dead(const Code& code, const CodeLine& line, std::span<const std::uint64
 class Forwarder {
 public:
   explicit Forwarder(Code& code)
-      : code_(code), named_(tidy(code)), flow_(read_flow(code)), facts_(code_, flow_),
+      : code_(code), flow_(read_flow(code)), facts_(code_, flow_),
         liveness_(read_liveness(code, flow_)) {}
 
   bool run() {
@@ -39,13 +39,9 @@ public:
       liveness_ = read_liveness(code_, flow_);
     }
     go_back();
-    reads_ = reads_of(code_);
-    const auto size = static_cast<std::uint32_t>(code_.lines.size());
-    if (reads_[index_variable] > 0)
-      reuse_elements();
-    for (auto i = size; i-- > 0;)
-      if (code_.lines[i].kind == LineKind::Let && !move(i))
-        copy(i);
+    for (auto i = static_cast<std::uint32_t>(code_.lines.size()); i-- > 0;)
+      if (code_.lines[i].kind == LineKind::Let)
+        move(i);
     return changed_;
   }
 
@@ -87,35 +83,37 @@ private:
 
   // ---- moving a value to its only reader
 
-  bool move(std::uint32_t i) {
+  void move(std::uint32_t i) {
     const auto variable = code_.lines[i].variable;
     if (variable == index_variable || code_.variables[variable].kept)
-      return false;
+      return;
     const auto term = code_.lines[i].term;
     const auto last =
         std::min<std::uint32_t>(static_cast<std::uint32_t>(code_.lines.size()), i + reach);
     for (auto j = i + 1; j < last; ++j) {
       auto& line = code_.lines[j];
       if (line.kind == LineKind::Label)
-        return false;
+        return;
       std::uint32_t count = 0;
       each_line_read(code_, line, [&](std::uint32_t v) { count += v == variable ? 1 : 0; });
-      if (count > 0)
-        return count == 1 && contains(last_reads_[j], variable) && substitute(i, j, variable, term);
+      if (count > 0) {
+        if (count == 1 && contains(last_reads_[j], variable))
+          substitute(i, j, variable, term);
+        return;
+      }
       if (facts_.touches(line, variable) || facts_.ends_text(line) || !facts_.passes(line, term))
-        return false;
+        return;
       if (line.kind == LineKind::If && live_at(line.label, variable))
-        return false;
+        return;
     }
-    return false;
   }
 
   /// Puts `term`, computed at line `i`, in place of the variable in line `j`.
-  bool substitute(std::uint32_t i, std::uint32_t j, std::uint32_t variable, std::uint32_t term) {
+  void substitute(std::uint32_t i, std::uint32_t j, std::uint32_t variable, std::uint32_t term) {
     auto& line = code_.lines[j];
     // What stops the program stops it at its own statement.
     if ((code_.terms[term].effects & effect::faults) != 0 && code_.lines[i].origin != line.origin)
-      return false;
+      return;
     std::uint8_t before = 0;
     bool done = false;
     bool good = true;
@@ -140,7 +138,7 @@ private:
       done = true;
     });
     if (!done)
-      return false;
+      return;
     drop(code_.lines[i]);
     // What the term reads is now read as late as here.
     each_read(code_, term, [&](std::uint32_t v) {
@@ -152,7 +150,6 @@ private:
       if (last)
         insert(last_reads_[j], v);
     });
-    return true;
   }
 
   bool is_read_of(std::uint32_t term, std::uint32_t variable) const {
@@ -193,50 +190,6 @@ private:
   }
 
   // ---- copies
-
-  /// Reads the original in place of a copy, where that does away with the copy.
-  bool copy(std::uint32_t i) {
-    const auto variable = code_.lines[i].variable;
-    const auto source = code_.lines[i].term;
-    if (variable == index_variable || code_.variables[variable].kept ||
-        code_.terms[source].kind != TermKind::Variable)
-      return false;
-    const auto original = code_.terms[source].left;
-    if (original == index_variable || original == variable)
-      return false;
-    std::uint32_t found = 0;
-    std::vector<std::uint32_t> readers;
-    const auto last =
-        std::min<std::uint32_t>(static_cast<std::uint32_t>(code_.lines.size()), i + reach);
-    for (auto j = i + 1; j < last; ++j) {
-      const auto& line = code_.lines[j];
-      if (line.kind == LineKind::Label)
-        break;
-      std::uint32_t count = 0;
-      each_root(code_, line, [&](std::uint32_t root) {
-        each_read(code_, root, [&](std::uint32_t v) { count += v == variable ? 1 : 0; });
-      });
-      const bool original_set = line.kind == LineKind::For && line.variable == original;
-      if (count > 0 && original_set)
-        break;
-      if (count > 0)
-        readers.push_back(j);
-      found += count;
-      if (facts_.writes(line, variable) || facts_.writes(line, original) || facts_.ends_text(line))
-        break;
-    }
-    if (found == 0 || found != reads_[variable])
-      return false;
-    for (const auto j : readers)
-      each_root(code_, code_.lines[j],
-                [&](std::uint32_t& root) { root = renamed(root, variable, original); });
-    reads_[original] += found;
-    reads_[variable] = 0;
-    drop(code_.lines[i]);
-    for (auto k = i; k <= readers.back(); ++k)
-      remove(last_reads_[k], original);
-    return true;
-  }
 
   std::uint32_t renamed(std::uint32_t root, std::uint32_t from, std::uint32_t to) {
     return with_variables(code_, root, [&](std::uint32_t term) {
@@ -329,263 +282,7 @@ private:
     return false;
   }
 
-  // ---- elements that a variable holds
-
-  struct Held {
-    std::uint32_t index; ///< a term
-    std::uint32_t variable;
-    std::uint32_t since; ///< this line
-  };
-
-  /// What is known at a place: what the index was set to, while that is still so, and elements.
-  struct Known {
-    std::uint32_t index = none;
-    std::uint32_t since = 0;     ///< this line
-    std::uint32_t tested = none; ///< the same where its tests follow: it is 0 where they fail
-    std::vector<Held> held;
-  };
-
-  /// What is known on all ways to a label that have been seen, all of them from above.
-  struct Arrival {
-    std::uint32_t ways = 0;
-    Known known;
-  };
-
-  void arrive(Arrival& arrival, const Known& known) const {
-    auto& all = arrival.known;
-    if (arrival.ways++ == 0) {
-      all = known;
-      return;
-    }
-    if (all.index != none &&
-        (known.index == none || known.tested != all.tested || !same(code_, all.index, known.index)))
-      all.index = none;
-    all.since = std::min(all.since, known.since);
-    std::erase_if(all.held, [&](Held& held) {
-      const auto other = std::find_if(known.held.begin(), known.held.end(), [&](const Held& one) {
-        return one.variable == held.variable && same(code_, one.index, held.index);
-      });
-      if (other != known.held.end())
-        held.since = std::min(held.since, other->since);
-      return other == known.held.end();
-    });
-  }
-
-  void read_on(std::uint32_t variable, std::uint32_t since, std::uint32_t until) {
-    for (auto k = since; k < until; ++k)
-      remove(last_reads_[k], variable);
-  }
-
-  /// The label after the tests of an index that is set in line `i`, or none where it has none.
-  std::uint32_t end_of_tests(std::uint32_t i) const {
-    const auto& lines = code_.lines;
-    const auto is_test = [&](std::uint32_t n) {
-      return n < lines.size() && lines[n].kind == LineKind::If && lines[n].guard;
-    };
-    if (lines[i].kind != LineKind::Let || lines[i].variable != index_variable || !is_test(i + 1))
-      return none;
-    const auto last = is_test(i + 2) ? i + 2 : i + 1;
-    auto n = last + 1;
-    if (n < lines.size() && lines[n].kind == LineKind::Label && last > i + 1 &&
-        lines[n].label == lines[i + 1].label && named_[lines[n].label] == 1)
-      ++n;
-    else if (last > i + 1)
-      return none;
-    return n + 1 < lines.size() && lines[n].guard && lines[n].kind == LineKind::Let &&
-                   lines[n + 1].kind == LineKind::Label && named_[lines[n + 1].label] == 1 &&
-                   lines[last].label == lines[n + 1].label
-               ? n + 1
-               : none;
-  }
-
-  /// Whether the tests after two lines that set the index let the same pass.
-  bool test_alike(std::uint32_t a, std::uint32_t b, std::uint32_t end_of_b) const {
-    for (++a, ++b; b < end_of_b; ++a, ++b) {
-      const auto& one = code_.lines[a];
-      const auto& other = code_.lines[b];
-      if (one.kind != other.kind || one.guard != other.guard)
-        return false;
-      if (one.kind != LineKind::If)
-        continue;
-      const auto& first = code_.conditions[one.condition].first;
-      const auto& second = code_.conditions[other.condition].first;
-      if (first.comparison != second.comparison || !same(code_, first.right, second.right))
-        return false;
-    }
-    return code_.lines[a].kind == LineKind::Label;
-  }
-
-  /// What an element is known to be is read from the variable that holds it; an index is not set
-  /// and tested again.
-  void reuse_elements() {
-    std::vector<Arrival> arrivals(code_.labels);
-    Known known;
-    auto& index = known.index; // not a structured binding: clang 14 lets no lambda capture one
-    auto& since = known.since;
-    auto& tested = known.tested;
-    auto& elements = known.held;
-    for (std::uint32_t i = 0; i < code_.lines.size(); ++i) {
-      if (index != none && swap_stores(i, index, elements))
-        read_on(index_variable, since, i);
-      auto& line = code_.lines[i];
-      if (const auto end = end_of_tests(i); end != none) {
-        if (index != none && tested != none && same(code_, line.term, index) &&
-            test_alike(tested, i, end)) {
-          read_on(index_variable, since, i);
-          for (; i < end; ++i)
-            drop(code_.lines[i]);
-          continue;
-        }
-        known = {is_still(line.term) ? line.term : none, i, i, {}};
-        i = end;
-        continue;
-      }
-      each_target(code_, line, [&](std::uint32_t label) { arrive(arrivals[label], known); });
-      if (line.kind == LineKind::Label) {
-        auto& arrival = arrivals[line.label];
-        if (i > 0 && falls_through(code_.lines[i - 1]))
-          arrive(arrival, known);
-        else
-          ++arrival.ways;
-        known = arrival.ways == named_[line.label] + 1 ? arrival.known : Known{};
-        auto live = liveness_.in[flow_.block_of_label[line.label]];
-        insert(live, index_variable);
-        for (const auto& held : elements)
-          insert(live, held.variable);
-        continue;
-      }
-      if (line.kind == LineKind::Gosub) {
-        keep_over_call(line, known);
-        continue;
-      }
-      if (line.kind == LineKind::Let && line.variable == index_variable && index != none &&
-          tested == none && same(code_, line.term, index)) {
-        read_on(index_variable, since, i);
-        drop(line);
-        continue;
-      }
-      const bool loads = line.kind == LineKind::Let && index != none &&
-                         code_.terms[line.term].kind == TermKind::Element;
-      const auto at = index;
-      if (loads)
-        for (const auto& held : elements)
-          if (same(code_, held.index, index)) {
-            line.term = code_.read(held.variable);
-            ++reads_[held.variable];
-            read_on(held.variable, held.since, i);
-            changed_ = true;
-            break;
-          }
-      if (index != none && line.kind != LineKind::For && line.kind != LineKind::Do)
-        for (const auto& held : elements)
-          if (held.since < since && is_element(held.variable, held.since) &&
-              same(code_, held.index, index))
-            read_there(line, held.variable, since, i);
-      if (facts_.sets_elements(line))
-        std::erase_if(elements, [&](const Held& held) {
-          return index == none || !facts_.differ(held.index, index);
-        });
-      each_write(code_, line, [&](std::uint32_t v) {
-        std::erase_if(elements, [&](const Held& held) {
-          return held.variable == v || facts_.reads(held.index, v);
-        });
-        if (v == index_variable || (index != none && facts_.reads(index, v)))
-          index = none;
-      });
-      if (line.kind == LineKind::Let && line.variable == index_variable) {
-        index = is_still(line.term) ? line.term : none;
-        since = i;
-        tested = none;
-      } else if (loads && index != none && line.variable != index_variable) {
-        elements.push_back({at, line.variable, i});
-      } else if (line.kind == LineKind::SetElement && index != none &&
-                 code_.terms[line.term].kind == TermKind::Variable &&
-                 code_.terms[line.term].left != index_variable) {
-        elements.push_back({at, code_.terms[line.term].left, i});
-      }
-    }
-  }
-
-  void keep_over_call(const CodeLine& call, Known& known) const {
-    if (known.index != none &&
-        (facts_.writes(call, index_variable) || facts_.disturbs(call, known.index)))
-      known.index = none;
-    std::erase_if(known.held, [&](const Held& held) {
-      return facts_.sets_elements(call) || facts_.writes(call, held.variable) ||
-             facts_.disturbs(call, held.index);
-    });
-  }
-
-  /// Whether a term stays the same while its variables do.
-  bool is_still(std::uint32_t term) const {
-    constexpr std::uint8_t moving = effect::clears | effect::senses | effect::elements;
-    return (code_.terms[term].effects & moving) == 0 && !facts_.reads(term, index_variable);
-  }
-
-  /// Whether line `since` reads an element into a variable that is read once.
-  bool is_element(std::uint32_t variable, std::uint32_t since) const {
-    const auto& line = code_.lines[since];
-    return line.kind == LineKind::Let && line.variable == variable && reads_[variable] == 1 &&
-           !code_.variables[variable].kept && code_.terms[line.term].effects == effect::elements;
-  }
-
-  /// Reads the element itself in place of the only reading of the variable that holds it, where
-  /// the index, set in line `since`, stands there again.
-  void read_there(CodeLine& line, std::uint32_t variable, std::uint32_t since, std::uint32_t i) {
-    each_root(code_, line, [&](std::uint32_t& root) {
-      const auto better = with_variables(code_, root, [&](std::uint32_t term) {
-        if (code_.terms[term].left != variable)
-          return term;
-        const auto element = code_.element();
-        code_.terms[element].effects = effect::elements;
-        return element;
-      });
-      if (better == root)
-        return;
-      root = better;
-      reads_[variable] = 0;
-      read_on(index_variable, since, i);
-      changed_ = true;
-    });
-  }
-
-  /// `Y=I; Z=A; Y=J; Z=B` where the index is J already: `Z=B; Y=I; Z=A`, if the elements are not
-  /// one, or each gets what the other holds.
-  bool swap_stores(std::uint32_t i, std::uint32_t index, std::span<const Held> all) {
-    if (i + 3 >= code_.lines.size() || !contains(last_reads_[i + 3], index_variable) ||
-        !stores(i) || !stores(i + 2) || !same(code_, code_.lines[i + 2].term, index))
-      return false;
-    const auto first = code_.lines[i].term;
-    const auto value = code_.lines[i + 1].term;
-    const auto other = code_.lines[i + 3].term;
-    const auto is_held = [&](std::uint32_t at, std::uint32_t term) {
-      return std::any_of(all.begin(), all.end(), [&](const Held& held) {
-        return same(code_, held.index, at) && code_.terms[term].kind == TermKind::Variable &&
-               code_.terms[term].left == held.variable;
-      });
-    };
-    if (!facts_.differ(first, index) && !(is_held(first, other) && is_held(index, value)))
-      return false;
-    std::swap(code_.lines[i], code_.lines[i + 2]);
-    std::swap(code_.lines[i + 1], code_.lines[i + 3]);
-    drop(code_.lines[i]);
-    for (auto k = i; k <= i + 3; ++k)
-      each_member(last_reads_[k], [&](std::uint32_t v) { remove(last_reads_[k], v); });
-    return true;
-  }
-
-  /// Whether two lines set an element, and nothing else matters to them.
-  bool stores(std::uint32_t i) const {
-    const auto& set = code_.lines[i];
-    const auto& store = code_.lines[i + 1];
-    return set.kind == LineKind::Let && set.variable == index_variable &&
-           store.kind == LineKind::SetElement && store.proven && !set.guard && !store.guard &&
-           code_.terms[set.term].effects == 0 && code_.terms[store.term].effects == 0 &&
-           !facts_.reads(set.term, index_variable) && !facts_.reads(store.term, index_variable);
-  }
-
   Code& code_;
-  std::vector<std::uint32_t> named_; ///< of each label: how often
   Flow flow_;
   LineFacts facts_;
   Liveness liveness_;
@@ -598,6 +295,7 @@ private:
 } // namespace
 
 bool forward_values(Code& code) {
+  tidy(code);
   return Forwarder(code).run();
 }
 

@@ -48,22 +48,9 @@ private:
     const auto sites = sites_[routine];
     if (sites == 0)
       return false;
-    return sites == 1 || sites * (bytes_[routine] + entry_bytes(routine)) <=
-                             call_bytes_[routine] + bytes_[routine] + return_bytes + slack +
-                                 tested_[routine] * result_bytes_[routine];
-  }
-
-  /// Of the jump that a copy needs where calls lead into the middle of a sub, to the test of its
-  /// loop.
-  std::uint32_t entry_bytes(std::uint32_t routine) const {
-    for (const auto& line : code_.lines)
-      if (line.routine == routine) {
-        if (line.kind != LineKind::Label)
-          return jump_bytes;
-        if (line.label == code_.routines[routine])
-          return 0;
-      }
-    return 0;
+    return sites == 1 || sites * bytes_[routine] <= call_bytes_[routine] + bytes_[routine] +
+                                                        return_bytes + slack +
+                                                        tested_[routine] * result_bytes_[routine];
   }
 
   /// Routines that set the same variable to a number each time they return: where it is only

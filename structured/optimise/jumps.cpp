@@ -145,81 +145,6 @@ private:
   bool changed_ = false;
 };
 
-/// Puts the lines before an `end` behind all others.
-class EndMover {
-public:
-  explicit EndMover(Code& code) : code_(code), lines_(code.lines) {}
-
-  void run() {
-    tidy(code_);
-    if (lines_.empty() || falls_through(lines_.back()) || ends_program(lines_.back()))
-      return;
-    loops_ = loops_of_lines(code_);
-    at_ = lines_of_labels(code_);
-    for (auto end = static_cast<std::uint32_t>(lines_.size()); end-- > 0;) {
-      if (!ends_program(lines_[end]) || !outside(end))
-        continue;
-      auto begin = end;
-      while (begin > 0 && falls_through(lines_[begin - 1]))
-        --begin;
-      if (from_jump(begin, end) || all(begin, end) || from_test(begin, end))
-        return;
-    }
-  }
-
-private:
-  bool outside(std::uint32_t i) const { return loops_[i] == none; }
-
-  bool move(std::uint32_t first, std::uint32_t last) {
-    std::rotate(lines_.begin() + first, lines_.begin() + last + 1, lines_.end());
-    return true;
-  }
-
-  /// Where the last line jumps into them: now the line above does.
-  bool from_jump(std::uint32_t begin, std::uint32_t end) {
-    const auto jump = lines_.back();
-    const auto first = jump.kind == LineKind::Goto ? at_[jump.label] : none;
-    if (first == none || first <= begin || first >= end || !outside(first))
-      return false;
-    lines_.pop_back();
-    lines_.insert(lines_.begin() + first, jump);
-    return move(first + 1, end + 1);
-  }
-
-  /// Where only jumps lead to them, and none that leaves out another way there.
-  bool all(std::uint32_t begin, std::uint32_t end) {
-    if (begin == 0 || !outside(begin))
-      return false;
-    const auto& above = lines_[begin - 1];
-    const auto over = above.kind == LineKind::Goto ? at_[above.label] : none;
-    return (over < begin || over > end) && move(begin, end);
-  }
-
-  /// Where a test leads past them: the other way comes next.
-  bool from_test(std::uint32_t begin, std::uint32_t end) {
-    for (auto i = end; i-- > begin;) {
-      auto& test = lines_[i];
-      if (test.kind != LineKind::If || test.guard || at_[test.label] != end + 1 || !outside(i))
-        continue;
-      auto& condition = code_.conditions[test.condition];
-      if (condition.glue != Glue::None || !code_.is_number(condition.first.right))
-        return false;
-      condition.first.comparison = opposite(condition.first.comparison);
-      auto label = test;
-      label.kind = LineKind::Label;
-      test.label = label.label = code_.labels++;
-      lines_.insert(lines_.begin() + i + 1, label);
-      return move(i + 1, end + 1);
-    }
-    return false;
-  }
-
-  Code& code_;
-  std::vector<CodeLine>& lines_;
-  std::vector<std::uint32_t> loops_;
-  std::vector<std::uint32_t> at_; ///< of each label: its line
-};
-
 } // namespace
 
 std::vector<std::uint32_t> loops_of_lines(const Code& code) {
@@ -293,10 +218,6 @@ bool straighten(Code& code) {
   return changed;
 }
 
-void put_end_last(Code& code) {
-  EndMover(code).run();
-}
-
 std::vector<std::uint32_t> lines_of_labels(const Code& code) {
   std::vector<std::uint32_t> lines(code.labels, none);
   for (std::uint32_t i = 0; i < code.lines.size(); ++i)
@@ -316,12 +237,6 @@ std::vector<std::uint32_t> tidy(Code& code) {
 
 bool clean_jumps(Code& code) {
   return Cleaner(code).run();
-}
-
-bool only_jump_leads_to(const Code& code, std::span<const std::uint32_t> named,
-                        std::span<const std::uint32_t> at, std::uint32_t label) {
-  return named[label] == 1 && at[label] != none && at[label] > 0 &&
-         !falls_through(code.lines[at[label] - 1]);
 }
 
 } // namespace orb::structured

@@ -15,10 +15,6 @@ bool clean_jumps(Code& code);
 /// Puts lines that only jumps lead to where one of those jumps stands. True where there were any.
 bool straighten(Code& code);
 
-/// Moves what the program ends with behind the rest, where nothing else is longer for it: at the
-/// end of its text it needs no `end`.
-void put_end_last(Code& code);
-
 /// Of each line: the label of the innermost loop of the robot that it stands in, or none.
 std::vector<std::uint32_t> loops_of_lines(const Code& code);
 
@@ -27,10 +23,5 @@ std::vector<std::uint32_t> lines_of_labels(const Code& code);
 
 /// Takes out lines that do nothing and labels that nothing names; the same.
 std::vector<std::uint32_t> tidy(Code& code);
-
-/// Whether one line leads to a label, and that is a jump; `named` as tidy() and `at` as
-/// lines_of_labels() tell it.
-bool only_jump_leads_to(const Code& code, std::span<const std::uint32_t> named,
-                        std::span<const std::uint32_t> at, std::uint32_t label);
 
 } // namespace orb::structured

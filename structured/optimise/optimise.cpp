@@ -52,11 +52,8 @@ void shorten(Code& code) {
       {merge_tails},    {inline_calls},
       {straighten},     {[](Code& one) { return use_values(one, Ways::Split); }},
   };
-  constexpr std::size_t of_calls = 4; // those that find the calls that need not be made
   std::uint32_t changes = 0;
   clean_jumps(code);
-  if (calls_repeat(code)) // before they are written out
-    settle(code, std::span(passes).first(of_calls), changes);
   settle(code, passes, changes);
   // Nothing is left that reads the original instead.
   changes += use_elements(code) ? 1 : 0;

@@ -1,11 +1,8 @@
 #include "structured/optimise/repeated.h"
 
-#include "structured/analyse/orders.h"
 #include "structured/analyse/ranges.h"
 
 #include <algorithm>
-#include <map>
-#include <utility>
 
 namespace orb::structured {
 namespace {
@@ -21,19 +18,6 @@ public:
         repeatable_(code.routines.size(), true), changed_(code.routines.size()),
         deed_of_(code.lines.size(), none), stored_(code.routines.size()),
         stores_(code.lines.size()) {}
-
-  /// Whether a routine that only computes is called more than once.
-  bool any() {
-    find_repeatable();
-    std::vector<bool> called(repeatable_.size(), false);
-    return std::any_of(code_.lines.begin(), code_.lines.end(), [&](const CodeLine& line) {
-      const auto callee = callee_of(line);
-      const bool again = callee != none && repeatable_[callee] && called[callee];
-      if (callee != none)
-        called[callee] = true;
-      return again;
-    });
-  }
 
   /// Drops what need not be done again; true where there was any.
   bool run() {
@@ -78,11 +62,6 @@ private:
     return !itself;
   }
 
-  /// What terms that are the same have in common.
-  std::pair<int, int> key_of(std::uint32_t term) const {
-    return {code_.terms[term].what, code_.terms[term].size};
-  }
-
   /// Routines that only compute, and what each of them changes of what it computes from.
   void find_repeatable() {
     repeatable_[0] = false;
@@ -123,14 +102,9 @@ private:
       }
       deed_of_[i] = deeds_++;
       others.push_back(i);
-      alike_[key_of(line.term)].push_back(i);
     }
-    orders_ = read_orders(code_, deeds_);
     read_.assign(deeds_, {});
     spoilt_by_ = VariableSets(code_.variables.size(), deeds_);
-    for (const auto& pair : orders_.pairs)
-      for (const auto term : {pair.left, pair.right})
-        each_read(code_, term, [&](std::uint32_t v) { pair.insert_in(spoilt_by_[v], all_orders); });
     for (std::uint32_t i = 0; i < code_.lines.size(); ++i) {
       const auto& line = code_.lines[i];
       const auto deed = deed_of_[i];
@@ -320,8 +294,6 @@ private:
     if (!ends)
       return changed;
     const auto& last = code_.lines[block.end - 1];
-    if (orders_.tests[block.end - 1].pair != none)
-      return leave_test(b, block.end - 1) || changed;
     for (const auto next : flow_.successors_of(block))
       changed = enter(next) || changed;
     if (last.kind == LineKind::Return) {
@@ -329,24 +301,6 @@ private:
       comes_back_[last.routine] = true;
       changed = unite(returned_[last.routine], stale_) || first || changed;
     }
-    return changed;
-  }
-
-  /// Goes on from a test with the orders that lead each way.
-  bool leave_test(std::uint32_t b, std::uint32_t i) {
-    const auto holds = orders_.tests[i].holds;
-    const auto& pair = orders_.pairs[orders_.tests[i].pair];
-    const auto orders = pair.in(stale_);
-    bool changed = false;
-    const auto leave = [&](std::uint32_t block, unsigned others) {
-      if (block >= flow_.blocks.size() || (orders & ~others) == 0)
-        return;
-      pair.remove_from(stale_, others);
-      changed = enter(block) || changed;
-      pair.insert_in(stale_, orders & others);
-    };
-    leave(flow_.block_of_label[code_.lines[i].label], all_orders & ~holds);
-    leave(b + 1, holds);
     return changed;
   }
 
@@ -367,48 +321,18 @@ private:
     return true;
   }
 
-  /// Drops what need not be done again, and reads what another variable has been set to.
+  /// Drops what need not be done again.
   bool rewrite() {
     std::vector<std::uint32_t> dropped; // lines
-    bool any = false;
     for (std::uint32_t b = 0; b < flow_.blocks.size(); ++b)
       if (ranges_.reaches(b))
         walk(b, [&](std::uint32_t i) {
-          auto& line = code_.lines[i];
-          if (orders_.tests[i].pair != none)
-            any = decide(i) || any;
           if (deed_of_[i] != none && !contains(stale_, deed_of_[i]))
             dropped.push_back(i);
-          else if (line.kind == LineKind::Let && deed_of_[i] != none)
-            any = read_other(line) || any;
         });
     for (const auto i : dropped)
       code_.lines[i].kind = LineKind::Nothing;
-    return any || !dropped.empty();
-  }
-
-  /// What a test finds, where another has found it before.
-  bool decide(std::uint32_t i) {
-    const auto& test = orders_.tests[i];
-    const auto orders = orders_.pairs[test.pair].in(stale_);
-    auto& line = code_.lines[i];
-    if ((orders & test.holds) == 0)
-      line.kind = LineKind::Nothing;
-    else if ((orders & ~test.holds) == 0)
-      line.kind = LineKind::Goto;
-    return line.kind != LineKind::If;
-  }
-
-  bool read_other(CodeLine& line) {
-    if (code_.terms[line.term].size == 1)
-      return false;
-    for (const auto i : alike_[key_of(line.term)])
-      if (const auto& other = code_.lines[i];
-          !contains(stale_, deed_of_[i]) && same(code_, other.term, line.term)) {
-        line.term = code_.read(other.variable);
-        return true;
-      }
-    return false;
+    return !dropped.empty();
   }
 
   Code& code_;
@@ -419,26 +343,20 @@ private:
   std::vector<std::vector<std::uint32_t>> changed_; ///< of each: what it reads, and then sets
   std::vector<std::uint32_t> deed_of_;              ///< of each line: its number, or none
   std::uint32_t deeds_ = 0;
-  std::uint32_t first_set_ = 0; ///< the first number of a way to set a variable
-  Orders orders_; ///< that terms which several tests compare can have: stale where they can
+  std::uint32_t first_set_ = 0;        ///< the first number of a way to set a variable
   std::vector<Elements> read_;         ///< of each of them; of routines with all that they call
   std::vector<std::uint32_t> readers_; ///< those that read elements
   std::vector<Elements> stored_;       ///< of each routine, with all that it calls
   std::vector<Elements> stores_;       ///< of each line itself
-  std::map<std::pair<int, int>, std::vector<std::uint32_t>> alike_; ///< lines that set variables
-  VariableSets spoilt_by_;       ///< of each variable: what must be done again when it is set
-  VariableSets begins_;          ///< of each block: what is stale at its begin
-  VariableSets returned_;        ///< of each routine: what is where it returns
-  std::vector<bool> entered_;    ///< of each block: something comes to it
-  std::vector<bool> comes_back_; ///< of each routine
+  VariableSets spoilt_by_;             ///< of each variable: what must be done again when it is set
+  VariableSets begins_;                ///< of each block: what is stale at its begin
+  VariableSets returned_;              ///< of each routine: what is where it returns
+  std::vector<bool> entered_;          ///< of each block: something comes to it
+  std::vector<bool> comes_back_;       ///< of each routine
   std::vector<std::uint64_t> stale_;
 };
 
 } // namespace
-
-bool calls_repeat(Code& code) {
-  return RepeatFinder(code).any();
-}
 
 bool drop_repeated(Code& code) {
   return RepeatFinder(code).run();

@@ -22,6 +22,35 @@ bool same_part(const Code& code, const Part& a, const Part& b) {
   return a.value == b.value;
 }
 
+/// Whether one line can stand for both of two that go on to the next: they do the same.
+bool does_same(const Code& code, const CodeLine& a, const CodeLine& b) {
+  if (a.kind != b.kind || a.robot != b.robot || !falls_through(a) || !may_join(code, a, b))
+    return false;
+  if (a.kind == LineKind::Gosub)
+    return a.label == b.label;
+  if (a.kind == LineKind::Let || a.kind == LineKind::SetElement || a.kind == LineKind::SetSystem)
+    return a.variable == b.variable && same(code, a.term, b.term);
+  return (a.kind == LineKind::Print || a.kind == LineKind::Do) &&
+         std::equal(code.parts.begin() + a.parts_begin, code.parts.begin() + a.parts_end,
+                    code.parts.begin() + b.parts_begin, code.parts.begin() + b.parts_end,
+                    [&](const Part& x, const Part& y) { return same_part(code, x, y); });
+}
+
+/// What is known of a line that stands for another one, too.
+void join_knowledge(Code& code, CodeLine& kept, const CodeLine& other) {
+  kept.proven = kept.proven && other.proven;
+  if (kept.kind == LineKind::If) {
+    auto& relation = code.conditions[kept.condition].first;
+    const auto& same = code.conditions[other.condition].first;
+    relation.left_range = compiler::join(relation.left_range, same.left_range);
+    relation.right_range = compiler::join(relation.right_range, same.right_range);
+  } else if (kept.kind == LineKind::Print || kept.kind == LineKind::Do) {
+    for (auto i = kept.parts_begin; i < kept.parts_end; ++i)
+      code.parts[i].range = compiler::join(
+          code.parts[i].range, code.parts[other.parts_begin + i - kept.parts_begin].range);
+  }
+}
+
 class Merger {
 public:
   explicit Merger(Code& code) : code_(code) {}
@@ -37,22 +66,14 @@ public:
 private:
   /// Two ways that meet: the lines of each end before these.
   struct Tails {
-    std::uint32_t kept_end;
-    std::uint32_t kept = none;  ///< where what is the same begins
-    std::uint32_t other_end;    ///< a jump, `return` or `end`
-    std::uint32_t other = none; ///< where what is the same begins
-    std::uint32_t lines = 0;    ///< how many these are
+    std::uint32_t kept_end = 0;
+    std::uint32_t kept = 0;      ///< where what is the same begins
+    std::uint32_t other_end = 0; ///< a jump, `return` or `end`
+    std::uint32_t other = 0;     ///< where what is the same begins
+    std::uint32_t lines() const { return kept_end - kept; }
   };
-  /// Labels that stand for each other in two tails.
-  struct Pair {
-    std::uint32_t kept;
-    std::uint32_t other;
-    bool stands = false;     ///< within the tails
-    std::uint32_t named = 0; ///< within the other tail
-  };
-
   bool once() {
-    named_ = tidy(code_);
+    tidy(code_);
     taken_.assign(code_.lines.size() + 1, false);
     labels_.clear();
     loops_ = loops_of_lines(code_);
@@ -106,9 +127,9 @@ private:
     constexpr std::size_t most_ends = 24;
     for (std::size_t n = 0; n < std::min(ends.size(), most_ends); ++n)
       if (ends[n] != other && !taken_[ends[n]] && loops_[ends[n]] == loops_[other])
-        if (const auto tails = compare(ends[n], other); tails.lines > best.lines)
+        if (const auto tails = compare(ends[n], other); tails.lines() > best.lines())
           best = tails;
-    if (best.lines == 0)
+    if (best.lines() == 0)
       return;
     for (auto i = best.kept; i < best.kept_end; ++i)
       join_knowledge(code_, code_.lines[i], code_.lines[best.other + i - best.kept]);
@@ -126,119 +147,40 @@ private:
     labels_.push_back({best.kept, jump.label});
   }
 
-  Tails compare(std::uint32_t kept_end, std::uint32_t other_end) {
-    Tails best{kept_end, none, other_end, none, 0};
-    pairs_.clear();
-    std::uint32_t lines = 0;
-    auto a = kept_end;
-    auto b = other_end;
-    while (a > 0 && b > 0) {
-      --a;
-      --b;
-      if (taken_[a] || taken_[b] || a == other_end || b == kept_end ||
-          !matches(code_.lines[a], code_.lines[b]))
-        break;
-      if (code_.lines[a].kind == LineKind::Label)
-        continue;
-      ++lines;
-      if (std::all_of(pairs_.begin(), pairs_.end(), [&](const Pair& pair) {
-            return pair.stands && pair.named == named_[pair.other];
-          })) {
-        best.kept = a;
-        best.other = b;
-        best.lines = lines;
-      }
+  Tails compare(std::uint32_t kept_end, std::uint32_t other_end) const {
+    auto kept = kept_end;
+    auto other = other_end;
+    while (kept > 0 && other > 0 && !taken_[kept - 1] && !taken_[other - 1] &&
+           kept - 1 != other_end && other - 1 != kept_end &&
+           matches(code_.lines[kept - 1], code_.lines[other - 1])) {
+      --kept;
+      --other;
     }
-    return best;
+    return {kept_end, kept, other_end, other};
   }
 
-  bool pair_up(std::uint32_t kept, std::uint32_t other, std::uint32_t names) {
-    for (auto& pair : pairs_)
-      if (pair.kept == kept || pair.other == other) {
-        pair.named += names;
-        pair.stands = pair.stands || names == 0;
-        return pair.kept == kept && pair.other == other;
-      }
-    pairs_.push_back({kept, other, names == 0, names});
-    return true;
-  }
-
-  bool matches(const CodeLine& a, const CodeLine& b) {
-    if (a.kind != b.kind || a.routine != b.routine || a.step != b.step || !may_join(code_, a, b))
+  bool matches(const CodeLine& a, const CodeLine& b) const {
+    if (a.routine != b.routine || a.kind != b.kind || !may_join(code_, a, b))
       return false;
-    const bool counts = a.kind == LineKind::For || a.kind == LineKind::Next;
-    if (counts && a.variable != b.variable)
-      return false;
-    switch (a.kind) {
-    case LineKind::Label: return pair_up(a.label, b.label, 0);
-    case LineKind::Goto: return a.label == b.label || pair_up(a.label, b.label, 1);
-    case LineKind::If:
-      return same(code_.conditions[a.condition], code_.conditions[b.condition]) &&
-             (a.label == b.label || pair_up(a.label, b.label, 1));
-    case LineKind::Next: return pair_up(a.label, b.label, 1);
-    case LineKind::For:
-      return same(a.term, b.term) && same(a.end, b.end) &&
-             std::any_of(pairs_.begin(), pairs_.end(), [&](const Pair& pair) {
-               return pair.kept == a.label && pair.other == b.label;
-             });
-    case LineKind::Let:
-    case LineKind::SetElement:
-    case LineKind::SetSystem:
-    case LineKind::Gosub:
-    case LineKind::Print:
-    case LineKind::Do: return does_same(code_, a, b);
-    case LineKind::Nothing:
-    case LineKind::Return:
-    case LineKind::Switch:
-    case LineKind::On:
-    case LineKind::Choice: return false;
-    }
-    return false;
+    if (a.kind != LineKind::If)
+      return does_same(code_, a, b);
+    return a.label == b.label && same(code_.conditions[a.condition], code_.conditions[b.condition]);
   }
 
-  bool same(std::uint32_t a, std::uint32_t b) const { return structured::same(code_, a, b); }
   bool same(const Condition& a, const Condition& b) const {
     return a.glue == Glue::None && b.glue == Glue::None &&
-           a.first.comparison == b.first.comparison && same(a.first.left, b.first.left) &&
-           same(a.first.right, b.first.right);
+           a.first.comparison == b.first.comparison &&
+           structured::same(code_, a.first.left, b.first.left) &&
+           structured::same(code_, a.first.right, b.first.right);
   }
 
   Code& code_;
-  std::vector<std::uint32_t> named_; ///< of each label: how often
   std::vector<std::uint32_t> loops_; ///< of each line: what stays in a loop
   std::vector<bool> taken_;          ///< of each line: it is part of a tail already
-  std::vector<Pair> pairs_;
   std::vector<std::pair<std::uint32_t, std::uint32_t>> labels_; ///< lines and labels before them
 };
 
 } // namespace
-
-bool does_same(const Code& code, const CodeLine& a, const CodeLine& b) {
-  if (a.kind != b.kind || a.robot != b.robot || !falls_through(a) || !may_join(code, a, b))
-    return false;
-  if (a.kind == LineKind::Gosub)
-    return a.label == b.label;
-  if (a.kind == LineKind::Let || a.kind == LineKind::SetElement || a.kind == LineKind::SetSystem)
-    return a.variable == b.variable && same(code, a.term, b.term);
-  return (a.kind == LineKind::Print || a.kind == LineKind::Do) &&
-         std::equal(code.parts.begin() + a.parts_begin, code.parts.begin() + a.parts_end,
-                    code.parts.begin() + b.parts_begin, code.parts.begin() + b.parts_end,
-                    [&](const Part& x, const Part& y) { return same_part(code, x, y); });
-}
-
-void join_knowledge(Code& code, CodeLine& kept, const CodeLine& other) {
-  kept.proven = kept.proven && other.proven;
-  if (kept.kind == LineKind::If) {
-    auto& relation = code.conditions[kept.condition].first;
-    const auto& same = code.conditions[other.condition].first;
-    relation.left_range = compiler::join(relation.left_range, same.left_range);
-    relation.right_range = compiler::join(relation.right_range, same.right_range);
-  } else if (kept.kind == LineKind::Print || kept.kind == LineKind::Do) {
-    for (auto i = kept.parts_begin; i < kept.parts_end; ++i)
-      code.parts[i].range = compiler::join(
-          code.parts[i].range, code.parts[other.parts_begin + i - kept.parts_begin].range);
-  }
-}
 
 bool merge_tails(Code& code) {
   return Merger(code).run();

@@ -1,6 +1,5 @@
 #include "structured/optimise/thread.h"
 
-#include "structured/analyse/orders.h"
 #include "structured/optimise/arms.h"
 #include "structured/optimise/jumps.h"
 
@@ -72,13 +71,10 @@ private:
         return look(b, next, nullptr, nullptr); // it goes on through lines that are added
       const auto& relation = code_.conditions[line.condition].first;
       auto copy = leads_on(block_of(line.label)) ? state : State{};
-      known_ = relation;
       if (copy.empty() || ranges_.narrow(relation, relation.comparison, copy))
         look(b, block_of(line.label), &line.label, copy.empty() ? nullptr : &copy);
-      known_.comparison = opposite(known_.comparison);
-      if (ranges_.narrow(relation, known_.comparison, state))
+      if (ranges_.narrow(relation, opposite(relation.comparison), state))
         look(b, next, nullptr, &state);
-      known_ = {};
     } else if (line.kind == LineKind::Goto) {
       look(b, block_of(line.label), &line.label, &state);
     } else if (line.kind == LineKind::Next) {
@@ -144,11 +140,8 @@ private:
       if (!is_pure(relation.left) || !is_pure(relation.right))
         return best;
       auto taken = state;
-      const auto orders = known_orders(relation, set);
-      const bool can_hold = (orders & orders_of(relation.comparison)) != 0 &&
-                            ranges_.narrow(relation, relation.comparison, taken);
-      const bool can_fail = (orders & ~orders_of(relation.comparison)) != 0 &&
-                            ranges_.narrow(relation, opposite(relation.comparison), state);
+      const bool can_hold = ranges_.narrow(relation, relation.comparison, taken);
+      const bool can_fail = ranges_.narrow(relation, opposite(relation.comparison), state);
       const auto target = flow_.blocks[block_of(line.label)].begin;
       if (can_hold && can_fail) {
         auto other = set;
@@ -162,19 +155,6 @@ private:
       }
     }
     return best;
-  }
-
-  /// In which orders the terms of a relation can be after the test that the way begins with.
-  unsigned known_orders(const Relation& relation, const std::vector<std::uint32_t>& set) const {
-    if (known_.left == none ||
-        (code_.terms[known_.left].effects | code_.terms[known_.right].effects) != 0)
-      return all_orders;
-    bool still = true;
-    for (const auto term : {known_.left, known_.right})
-      each_read(code_, term, [&](std::uint32_t v) {
-        still = still && std::find(set.begin(), set.end(), v) == set.end();
-      });
-    return still ? orders_as(code_, relation, known_).value_or(all_orders) : all_orders;
   }
 
   /// The block that an `on` leads to, or none.
@@ -241,7 +221,6 @@ private:
   std::vector<Way> ways_;
   std::vector<std::pair<std::uint32_t, std::uint32_t>> labels_; ///< of blocks: to be added
   std::uint32_t below_ = none; ///< the block below the jump that is looked at
-  Relation known_;             ///< holds at the begin of the way that is looked at
   int steps_ = 0;
   bool changed_ = false;
 };

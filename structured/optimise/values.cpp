@@ -112,13 +112,6 @@ private:
           result = unfolded(node, left, right);
       }
       improve(result, state);
-      const auto rest = code_.terms[result];
-      const auto limit = rest.kind == TermKind::Binary ? code_.terms[rest.right] : Term{};
-      const auto range =
-          rest.kind == TermKind::Binary ? ranges_.range_of(rest.left, state) : Range{};
-      if (rest.kind == TermKind::Binary && rest.what == static_cast<int>(Operator::Remainder) &&
-          limit.kind == TermKind::Number && range.lo >= 0 && range.hi < limit.value)
-        return rest.left;
       return result;
     }
     case TermKind::Call: {
@@ -127,9 +120,6 @@ private:
       if (operand != node.left)
         result = code_.call(static_cast<spec::Function>(node.what), operand);
       improve(result, state);
-      if (node.what == static_cast<int>(spec::Function::Abs) &&
-          ranges_.range_of(operand, state).lo >= 0)
-        return operand;
       return result;
     }
     }
@@ -186,10 +176,8 @@ private:
         changed_ = true;
         return;
       }
-      if (line.kind == LineKind::If) {
-        simplify(code_.conditions[line.condition].first);
+      if (line.kind == LineKind::If)
         learn(line, state);
-      }
       each_root(code_, line, [&](std::uint32_t& root) {
         // The end of a loop is computed when its variable has been set.
         if (line.kind == LineKind::For && &root == &line.end)
@@ -207,29 +195,12 @@ private:
             code_.parts[n].range = ranges_.range_of(code_.parts[n].value, state);
       if (line.kind == LineKind::Switch)
         choose(i, state[line.variable]);
-      if (line.kind == LineKind::On)
-        shorten(line, state);
     });
     code_.wrong_indices.clear();
     for (const auto& [statement, index] : wrong_indices_)
       if (index)
         code_.wrong_indices.push_back({statement, *index});
     cut_unreached(reached);
-  }
-
-  /// An `on` without the targets at its end that no value leads to.
-  void shorten(CodeLine& line, const State& state) {
-    const auto label = chosen_label(code_, ranges_, line, state);
-    const auto last = std::max(1, ranges_.range_of(line.term, state).hi);
-    if (label != none && is_pure(code_.terms[line.term].effects)) {
-      line.kind = LineKind::Goto;
-      line.label = label;
-      line.parts_begin = line.parts_end = 0;
-      changed_ = true;
-    } else if (static_cast<std::uint32_t>(last) < line.parts_end - line.parts_begin) {
-      line.parts_end = line.parts_begin + static_cast<std::uint32_t>(last);
-      changed_ = true;
-    }
   }
 
   /// Whether a variable is set to the number that it holds already. Only of variables that are set
@@ -265,19 +236,6 @@ private:
       return;
     condition.second.left_range = ranges_.range_of(condition.second.left, state);
     condition.second.right_range = ranges_.range_of(condition.second.right, state);
-  }
-
-  /// `7 - x = 3` is `x = 4`, whatever wraps around.
-  void simplify(Relation& relation) {
-    const bool equality =
-        relation.comparison == Comparison::Equal || relation.comparison == Comparison::NotEqual;
-    const auto left = code_.terms[relation.left];
-    if (!equality || left.kind != TermKind::Binary || !code_.is_number(relation.right) ||
-        !code_.is_number(left.left) || left.what != static_cast<int>(Operator::Subtract))
-      return;
-    relation.right = code_.binary(Operator::Subtract, left.left, relation.right);
-    relation.left = left.right;
-    changed_ = true;
   }
 
   void decide(CodeLine& line, const State& state) {
