@@ -185,7 +185,8 @@ private:
       told.message = texts::NeverWaits();
     if (found.rule == &robot::IndexRange)
       told.message = texts::IndexOutOfBounds();
-    if (found.message.is(robot_texts::DividesByZeroHere))
+    if (found.message.is(robot_texts::DividesByZeroHere) ||
+        found.message.is(robot_texts::DividesByZeroInRound))
       told.message = robot_texts::DividesByZero();
     if (is_of_array(found))
       return tell_of_index(statement, told);
@@ -214,7 +215,8 @@ private:
   /// A value, as the source writes it. Of one that is no argument of the source only the number is
   /// told.
   void tell_of_value(const Diagnostic& found, const Statement& statement, Diagnostic& told) const {
-    if (told.span == statement.span && found.message.is(robot_texts::ButBecomes))
+    if (told.span == statement.span && (found.message.is(robot_texts::ButBecomes) ||
+                                        found.message.is(robot_texts::ButBecomesInRound)))
       told.message =
           robot_texts::FoundValue(found.message.fillers()[0], found.message.fillers()[2]);
     const std::string letters(plain_.text_of(found.span));
