@@ -42,7 +42,10 @@ bool warns_of(const Program& program, const Diagnostic& d, const TrialFault& fau
 void add_ways(Diagnostic& d, const Trial& trial, std::uint32_t decision) {
   constexpr std::size_t most = 2;
   for (; decision != none && d.notes.size() < most; decision = trial.decisions[decision].before)
-    if (const auto& one = trial.decisions[decision]; one.span.size() > 0)
+    if (const auto& one = trial.decisions[decision];
+        one.span.size() > 0 && std::none_of(d.notes.begin(), d.notes.end(), [&](const auto& note) {
+          return note.span == one.span;
+        }))
       add_note(d, one.span,
                one.holds == Holds::Yes ? texts::WhenThisHolds() : texts::WhenThisDoesNotHold());
 }

@@ -208,7 +208,8 @@ void TrialLine::input(const InputView& input) {
     check_value(*input.milliseconds, row.word, row.parameter_slots[0]);
   if (input.fallback != nullptr)
     value(*input.fallback);
-  set(input.variable, {{}, true, true});
+  const bool asks = input.fallback == nullptr; // else there may be nobody who answers
+  set(input.variable, {{}, asks, asks});
 }
 
 } // namespace orb::compiler

@@ -15,6 +15,13 @@
 namespace orb::compiler {
 namespace {
 
+/// Who decides where a program goes.
+enum class Decider : std::uint8_t {
+  World,   ///< whoever shakes the ball, or chance: in any way, at any time
+  Program, ///< what it brings about itself: a place, a speed
+  Clock,   ///< a timer, which comes to its end
+};
+
 class TrialRun : private TrialLine {
 public:
   TrialRun(const Program& program, const Flow& flow) : TrialLine(program, flow), flow_(flow) {}
@@ -39,7 +46,8 @@ private:
   static constexpr std::size_t most_ways = 64;      ///< that wait to be followed
   static constexpr std::uint32_t most_probed =
       24; ///< lines of a loop that only waits, of ways that meet
-  static constexpr std::size_t most_targets = 8; ///< of an `on` that are followed
+  static constexpr std::uint32_t most_joined = 16; ///< rounds in which both ways go on as one
+  static constexpr std::size_t most_targets = 8;   ///< of an `on` that are followed
 
   /// Whether nobody was here before with the same known: who comes back, and who parts from here.
   bool is_new() { return met_.insert(now_.hash()).second; }
@@ -151,8 +159,8 @@ private:
     leaves.at = line_ + 1;
     decide(stays, {}, Holds::Yes);
     decide(leaves, {}, Holds::No);
-    const bool driven = open.end.driven;
-    return part({std::move(stays), std::move(leaves)}, driven);
+    const auto decider = decider_of(open.end.driven);
+    return part({std::move(stays), std::move(leaves)}, decider);
   }
 
   Span loop_variable(std::uint32_t code) const {
@@ -205,7 +213,7 @@ private:
       ways.push_back(std::move(now_));
     }
     now_ = here;
-    return part(std::move(ways), selector.driven);
+    return part(std::move(ways), decider_of(selector.driven));
   }
 
   // ---- conditions
@@ -243,7 +251,30 @@ private:
     }
     now_ = here;
     stopped_ = false;
-    return idle ? line_ + 1 : part(std::move(ways), driven);
+    if (idle)
+      return line_ + 1;
+    const auto decider = waits_for_time(statement) ? Decider::Clock : decider_of(driven);
+    const auto next = part(std::move(ways), decider);
+    if (next != none || probing_ || !meet || here.decision != none || runs_[line_] > most_joined)
+      return next;
+    now_ = here; // whatever was decided: what is wrong then is certain
+    return join_branches(*yes, no);
+  }
+
+  static Decider decider_of(bool driven) { return driven ? Decider::Program : Decider::World; }
+
+  /// Whether a condition is about timers alone.
+  bool waits_for_time(const StatementNode& statement) const {
+    bool timers = false;
+    for (auto n = statement.nodes_begin; n < statement.nodes_end; ++n) {
+      const auto& node = program_.nodes[n];
+      if (node.kind == NodeKind::Number || node.kind == NodeKind::Group)
+        continue;
+      if (node.kind != NodeKind::System || spec::variables[node.what].unit != "ms")
+        return false;
+      timers = true;
+    }
+    return timers;
   }
 
   static Span span_of(const IfView& condition) {
@@ -390,35 +421,36 @@ private:
   }
 
   /// Goes on along each of the ways, but those that come back here with nothing changed: there the
-  /// program waits for another one. Ways that meet soon are one.
-  std::uint32_t part(std::vector<Moment> ways, bool driven) {
+  /// program waits for another one, which comes where it waits for time. Ways that meet soon are
+  /// one.
+  std::uint32_t part(std::vector<Moment> ways, Decider decider) {
     if (probing_ || !parts_anew())
       return none;
     const auto waits = std::erase_if(ways, [&](const Moment& way) { return comes_back(way); });
     if (waits > 0 && ways.size() == 1) {
       auto& only = ways.front();
-      for (auto& fault : trial_.faults)
-        if (fault.decision == only.decision)
-          fault.decision = now_.decision;
-      return go_on(only);
+      if (decider == Decider::Clock) {
+        for (auto& fault : trial_.faults)
+          if (fault.decision == only.decision)
+            fault.decision = now_.decision;
+        only.decision = now_.decision;
+      }
+      now_ = std::move(only);
+      return now_.at;
     }
-    if (auto meeting = meeting_of(ways))
-      return go_on(*meeting);
+    if (auto meeting = meeting_of(ways)) {
+      meeting->decision = now_.decision;
+      now_ = std::move(*meeting);
+      return now_.at;
+    }
     for (auto& way : ways) {
       if (way.at == none || ways_.size() == most_ways)
         continue;
-      if (driven)
+      if (decider != Decider::World)
         way.driven.push_back(line_);
       ways_.push_back(std::move(way));
     }
     return none;
-  }
-
-  /// As if nothing had been decided.
-  std::uint32_t go_on(Moment& way) {
-    way.decision = now_.decision;
-    now_ = std::move(way);
-    return now_.at;
   }
 
   /// Follows a way for a few lines, as long as it is the only one and `goes_on` wants more; what it
