@@ -88,7 +88,7 @@ TrialValue sum_of(spec::Operator op, const TrialValue& left, const TrialValue& r
   case spec::Operator::Remainder: // of a turn at least
     sum.dense =
         dense && by_number &&
-        std::int64_t{left.range.hi} - left.range.lo >= std::abs(std::int64_t{right.range.lo});
+        std::int64_t{left.range.hi} - left.range.lo >= std::abs(std::int64_t{right.range.lo}) - 1;
     sum.exact = sum.dense;
     break;
   case spec::Operator::Multiply:

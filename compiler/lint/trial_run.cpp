@@ -42,7 +42,7 @@ public:
   }
 
 private:
-  static constexpr std::uint32_t most_lines = 6000; ///< on all ways together
+  static constexpr std::uint32_t most_lines = 4000; ///< on all ways together
   static constexpr std::size_t most_ways = 64;      ///< that wait to be followed
   static constexpr std::uint32_t most_probed =
       24; ///< lines of a loop that only waits, of ways that meet

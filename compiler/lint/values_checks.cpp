@@ -108,18 +108,47 @@ std::optional<Range> ValuesPass::usual_range(const Item& value) const {
   return sensors ? std::optional(usual.back()) : std::nullopt;
 }
 
+std::optional<Range> ValuesPass::usual_values(const spec::VariableInfo& row) const {
+  constexpr Range way{-100, 100};    // cm
+  constexpr Range shaken{0, 2000};   // 0.001 g; 1000 at rest
+  constexpr Range battery{700, 800}; // 0.01 V
+  if (row.unit == "cm")
+    return way;
+  if (row.variable == spec::Variable::Accelone)
+    return shaken;
+  if (row.variable == spec::Variable::Vbatt)
+    return battery;
+  if (row.unit != "ms")
+    return std::nullopt;
+  std::optional<Range> time; // that the program sets
+  for (const auto& place : flow_.all(spec::Statement::Let)) {
+    const auto let = program_.as<LetView>(program_.statements[place.statement]);
+    const auto number = number_in(program_, let.expression);
+    if (let.variable.kind == ItemKind::System && number &&
+        static_cast<spec::Variable>(let.variable.value) == row.variable)
+      time = Range{0, std::max(*number, time ? time->hi : 0)};
+  }
+  return time;
+}
+
 bool ValuesPass::is_compared(spec::Variable variable) const {
-  return std::any_of(flow_.all(spec::Statement::If).begin(), flow_.all(spec::Statement::If).end(),
-                     [&](const Flow::Place& place) {
-                       const auto items = program_.items_of(program_.statements[place.statement]);
-                       return std::any_of(items.begin(), items.end(), [&](const Item& item) {
-                         const auto nodes = nodes_of(program_, item);
-                         return std::any_of(nodes.begin(), nodes.end(), [&](const Node& node) {
-                           return node.kind == NodeKind::System &&
-                                  static_cast<spec::Variable>(node.what) == variable;
-                         });
-                       });
-                     });
+  const auto is_it = [&](const Node& node) {
+    return node.kind == NodeKind::System && static_cast<spec::Variable>(node.what) == variable;
+  };
+  const auto reads = [&](const Item& side) {
+    const auto nodes = nodes_of(program_, side);
+    return std::any_of(nodes.begin(), nodes.end(), is_it);
+  };
+  const auto bounds = [&](const Comparison& comparison) {
+    const auto test = sensor_test(program_, comparison);
+    const bool waits = test && test->number == 0 && spec::info(variable).unit == "ms";
+    return !waits && (reads(comparison.left) || reads(comparison.right));
+  };
+  const auto& all = flow_.all(spec::Statement::If);
+  return std::any_of(all.begin(), all.end(), [&](const Flow::Place& place) {
+    const auto condition = program_.as<IfView>(program_.statements[place.statement]);
+    return bounds(condition.first) || (condition.second && bounds(*condition.second));
+  });
 }
 
 void ValuesPass::check_may_leave(const Item& value, std::string_view word,

@@ -30,21 +30,6 @@ inline constexpr auto reaches_ends = [] {
   return table;
 }();
 
-/// What a sensor that does not reach the ends of its range is often enough, in any program that
-/// drives; nothing where that is not known.
-constexpr std::optional<Range> usual_values(const spec::VariableInfo& row) {
-  constexpr std::int32_t way = 100;     // cm
-  constexpr std::int32_t shaken = 2000; // 0.001 g; 1000 at rest
-  constexpr Range battery{700, 800};    // 0.01 V
-  if (row.unit == "cm")
-    return Range{-way, way};
-  if (row.variable == spec::Variable::Accelone)
-    return Range{0, shaken};
-  if (row.variable == spec::Variable::Vbatt)
-    return battery;
-  return std::nullopt;
-}
-
 /// How a letter gets its values, over the whole program.
 struct Letter {
   const Item* first_set = nullptr;  ///< null where nothing sets it
@@ -202,9 +187,10 @@ private:
   }
   void check_outside(const Item& value, std::string_view word, const spec::Parameter& parameter);
 
-  /// What an expression of numbers and such sensors is often enough. A program that compares one
-  /// of them may know what it does.
+  /// What an expression of numbers and a sensor is often enough, in any program that drives, where
+  /// that is known of the sensor. A program that compares it may know what it does.
   std::optional<Range> usual_range(const Item& value) const;
+  std::optional<Range> usual_values(const spec::VariableInfo& row) const;
   bool is_compared(spec::Variable variable) const;
 
   void check_may_leave(const Item& value, std::string_view word, const spec::Parameter& parameter);
