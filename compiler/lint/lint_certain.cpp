@@ -88,7 +88,9 @@ void lint_certain(const Program& program, const Flow& flow, Findings& findings) 
     });
     if (said)
       continue;
-    if (fault.decision == none)
+    // The other rules are about lines that never run through.
+    const bool runs_first = fault.later && fault.rule != &rules::MayLeaveRange;
+    if (fault.decision == none && !runs_first)
       add_certain(program, fault, findings);
     else
       add_possible(program, fault, trial, findings);

@@ -26,7 +26,8 @@ void TrialLine::stop(const Rule& rule, Span span, Message message, Message help)
   const bool said = std::any_of(trial_.faults.begin(), trial_.faults.end(),
                                 [&](const TrialFault& one) { return one.span == span; });
   if (!probing_ && !said)
-    trial_.faults.push_back({&rule, span, std::move(message), std::move(help), now_.decision});
+    trial_.faults.push_back(
+        {&rule, span, std::move(message), std::move(help), now_.decision, runs_[line_] > 1});
 }
 
 std::uint32_t TrialLine::round() const {

@@ -24,6 +24,7 @@ struct TrialFault {
   Message message;
   Message help;
   std::uint32_t decision = none; ///< the last one on the way; none: there is no other way
+  bool later = false;            ///< the line has run through before
 };
 
 struct Trial {

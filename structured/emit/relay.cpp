@@ -171,10 +171,16 @@ private:
         has_copies(compiled_.robot.lines[line_at(found.span.begin)].statement))
       told.severity = Severity::Warning;
     for (const auto& note : found.notes)
-      if (const auto& there = statement_at(note.span.begin); &there != &statement)
+      if (const auto& there = statement_at(note.span.begin);
+          &there != &statement && !is_of_test(note.message))
         told.notes.push_back({there.span, note.message});
     put_into_source_words(found, statement, told);
     program.diagnostics.push_back(std::move(told));
+  }
+
+  /// Whether it says how a test of the robot turns out, which may be the reverse of the source's.
+  static bool is_of_test(const Message& message) {
+    return message.is(robot_texts::WhenThisHolds) || message.is(robot_texts::WhenThisDoesNotHold);
   }
 
   /// Letters and line numbers of the robot say nothing to whoever wrote names.
