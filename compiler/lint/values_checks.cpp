@@ -55,9 +55,100 @@ void ValuesPass::check_outside(const Item& value, std::string_view word,
   else if (!check_loop_range(value, word, parameter)) {
     if (known_[value.value].exact)
       check_may_leave(value, word, parameter);
+    else if (const auto usual = usual_range(value); usual && usual->lo < parameter.least)
+      add_can_be(value, allowed_values(word, parameter), usual->lo);
+    else if (usual && usual->hi > parameter.greatest)
+      add_can_be(value, allowed_values(word, parameter), usual->hi);
     else
       doubt(value, parameter.least, parameter.greatest);
   }
+}
+
+void ValuesPass::add_can_be(const Item& value, Message allowed, std::int32_t number) {
+  findings_.add(rules::MayLeaveRange, value.span,
+                texts::ButCanBeOne(std::move(allowed), program_.text_of(value.span), number));
+}
+
+std::optional<Range> ValuesPass::usual_range(const Item& value) const {
+  const auto begin = program_.nodes[value.value].first;
+  std::vector<Range> usual;
+  bool sensors = false;
+  for (auto n = begin; n <= value.value; ++n) {
+    const auto& node = program_.nodes[n];
+    const auto last = usual.empty() ? Range{} : usual.back();
+    switch (node.kind) {
+    case NodeKind::Number: usual.push_back(known_[n].range); break;
+    case NodeKind::System: {
+      const auto& row = spec::variables[node.what];
+      const auto range = usual_values(row);
+      if (sensors || !range || is_compared(row.variable))
+        return std::nullopt;
+      sensors = true;
+      usual.push_back(*range);
+      break;
+    }
+    case NodeKind::Group: usual.push_back(last); break;
+    case NodeKind::Negate: usual.push_back(negate(last)); break;
+    case NodeKind::Call:
+      if (spec::functions[node.what].function != spec::Function::Abs)
+        return std::nullopt;
+      usual.push_back(apply(spec::Function::Abs, last));
+      break;
+    case NodeKind::Binary: {
+      const auto op = static_cast<spec::Operator>(node.what);
+      if (!keeps_ends(node) && op != spec::Operator::Divide)
+        return std::nullopt;
+      usual.push_back(apply(op, usual[program_.nodes[n - 1].first - 1 - begin], last));
+      break;
+    }
+    case NodeKind::Letter:
+    case NodeKind::Indexed: return std::nullopt;
+    }
+  }
+  return sensors ? std::optional(usual.back()) : std::nullopt;
+}
+
+std::optional<Range> ValuesPass::usual_values(const spec::VariableInfo& row) const {
+  constexpr Range way{-100, 100};    // cm
+  constexpr Range shaken{0, 2000};   // 0.001 g; 1000 at rest
+  constexpr Range battery{700, 800}; // 0.01 V
+  if (row.unit == "cm")
+    return way;
+  if (row.variable == spec::Variable::Accelone)
+    return shaken;
+  if (row.variable == spec::Variable::Vbatt)
+    return battery;
+  if (row.unit != "ms")
+    return std::nullopt;
+  std::optional<Range> time; // that the program sets
+  for (const auto& place : flow_.all(spec::Statement::Let)) {
+    const auto let = program_.as<LetView>(program_.statements[place.statement]);
+    const auto number = number_in(program_, let.expression);
+    if (let.variable.kind == ItemKind::System && number &&
+        static_cast<spec::Variable>(let.variable.value) == row.variable)
+      time = Range{0, std::max(*number, time ? time->hi : 0)};
+  }
+  return time;
+}
+
+bool ValuesPass::is_compared(spec::Variable variable) const {
+  const auto is_it = [&](const Node& node) {
+    return node.kind == NodeKind::System && static_cast<spec::Variable>(node.what) == variable;
+  };
+  const auto reads = [&](const Item& side) {
+    const auto nodes = nodes_of(program_, side);
+    return std::any_of(nodes.begin(), nodes.end(), is_it);
+  };
+  const auto bounds = [&](const Comparison& comparison) {
+    const auto test = sensor_test(program_, comparison);
+    const bool waits = test && test->number == 0 && spec::info(variable).unit == "ms";
+    return !waits && (reads(comparison.left) || reads(comparison.right));
+  };
+  const auto& all = flow_.all(spec::Statement::If);
+  return std::any_of(all.begin(), all.end(), [&](const Flow::Place& place) {
+    const auto condition = program_.as<IfView>(program_.statements[place.statement]);
+    return bounds(condition.first) || (condition.second && bounds(*condition.second));
+  });
 }
 
 void ValuesPass::check_may_leave(const Item& value, std::string_view word,

@@ -184,9 +184,16 @@ private:
   }
   void check_outside(const Item& value, std::string_view word, const spec::Parameter& parameter);
 
+  /// What an expression of numbers and a sensor is often enough, in any program that drives, where
+  /// that is known of the sensor. A program that compares it may know what it does.
+  std::optional<Range> usual_range(const Item& value) const;
+  std::optional<Range> usual_values(const spec::VariableInfo& row) const;
+  bool is_compared(spec::Variable variable) const;
+
   void check_may_leave(const Item& value, std::string_view word, const spec::Parameter& parameter);
 
   void add_may_leave(const Item& value, Message allowed, Message help);
+  void add_can_be(const Item& value, Message allowed, std::int32_t number);
 
   void add_out_of_range(const Item& value, std::string_view word, const spec::Parameter& parameter);
 

@@ -33,17 +33,26 @@ public:
 private:
   static constexpr std::uint32_t unknown = compiler::most_letters - 1; ///< is set, and never read
 
-  /// Variables get letters in turn, the index the robot's own. Of those that there are too many of
-  /// nothing is known.
+  /// Variables get letters in turn, the index the robot's own: first those that loops count in, then
+  /// those that have names. Of others that there are too many of nothing is known.
   void find_letters() {
-    letter_of_.resize(code_.variables.size(), unknown);
-    std::uint32_t next = 0;
-    for (std::size_t v = 0; v < letter_of_.size() && next < unknown; ++v)
-      if (v == index_variable)
-        letter_of_[v] = compiler::index_letter;
-      else
-        letter_of_[v] = next == compiler::index_letter ? ++next, next++ : next++;
     out_.letters = compiler::most_letters;
+    letter_of_.resize(code_.variables.size(), unknown);
+    letter_of_[index_variable] = compiler::index_letter;
+    for (const auto& line : code_.lines)
+      if (line.kind == LineKind::For)
+        give_letter(line.variable);
+    for (std::uint32_t v = 0; v < code_.variables.size(); ++v)
+      if (code_.variables[v].symbol != none)
+        give_letter(v);
+    for (std::uint32_t v = 0; v < code_.variables.size(); ++v)
+      give_letter(v);
+  }
+
+  void give_letter(std::uint32_t variable) {
+    next_letter_ += next_letter_ == compiler::index_letter ? 1 : 0;
+    if (letter_of_[variable] == unknown && next_letter_ < unknown)
+      letter_of_[variable] = next_letter_++;
   }
 
   /// Whether a label stands at line `i`, or below it with other labels.
@@ -417,6 +426,7 @@ private:
   const Code& code_;
   compiler::Program out_;
   std::vector<std::uint32_t> letter_of_; ///< of each variable
+  std::uint32_t next_letter_ = 0;
   std::vector<std::uint32_t> number_of_; ///< of each label the line that it stands above
   Span here_;                            ///< the statement that is written
   Span word_;                            ///< its word

@@ -1,10 +1,14 @@
-// mutants ROOT [--mutants N] [--show]: changes a token of the examples and lessons, in all four
-// languages, and makes the safe fixes, as `orb check --fix` does. Fails when a fix leaves more
-// errors than it found, when a second --fix changes something, when a program that ran means
+// mutants ROOT [--mutants N] [--show | --faults N]: changes a token of the examples and lessons, in
+// all four languages, and makes the safe fixes, as `orb check --fix` does. Fails when a fix leaves
+// more errors than it found, when a second --fix changes something, when a program that ran means
 // something else afterwards, or when a program that did not run gets a meaning which is neither
 // that of the program that was changed nor keeps all its numbers, names and texts.
+//
+// With --faults it makes no fixes but runs mutants of clean programs until N of them have been
+// stopped by a fault, and tells of how many `orb check` says nothing.
 
 #include "base/fixes.h"
+#include "mutants/faults.h"
 #include "repair/safety.h"
 #include "slips/judge.h"
 
@@ -276,20 +280,46 @@ private:
   bool show_;
 };
 
+/// Runs mutants of the programs of which nothing is said, until so many have been stopped.
+void count_faults(std::vector<Program> all, std::size_t faults) {
+  std::erase_if(all, [](const Program& one) {
+    return (one.language != Language::Basic && one.language != Language::Structured) ||
+           !slips::findings(one.language, slips::join(one.lines)).empty();
+  });
+  std::mt19937 random(63);
+  mutants::Faults count;
+  while (count.count() < faults) {
+    const auto& program = all[random() % all.size()];
+    const auto at = static_cast<std::size_t>(random() % program.lines.size());
+    auto mutant = program.lines;
+    mutant[at] = mutated(program, at, random);
+    if (mutant[at] != program.lines[at])
+      count.judge(program.name, program.language, mutant, at);
+  }
+  count.report();
+}
+
 } // namespace
 
 int main(int argc, char** argv) {
   if (argc < 2)
     return 2;
   std::size_t most = 400;
+  std::size_t faults = 0;
   bool show = false;
   for (int i = 2; i < argc; ++i) {
     const std::string_view option = argv[i];
     show = show || option == "--show";
     if (option == "--mutants" && i + 1 < argc)
       most = std::strtoul(argv[++i], nullptr, 10);
+    if (option == "--faults" && i + 1 < argc)
+      faults = std::strtoul(argv[++i], nullptr, 10);
   }
   const auto all = programs(argv[1]);
+  if (faults > 0) {
+    count_faults(all, faults);
+    return 0;
+  }
   std::mt19937 random(63);
   Judge judge(show);
   for (std::size_t n = 0; n < most;) { // a language after the other

@@ -1,0 +1,216 @@
+#include "compiler/lint/trial_line.h"
+
+#include "compiler/lint/reading.h"
+#include "compiler/text/rules.h"
+#include "compiler/text/texts.h"
+#include "spec/limits.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <utility>
+
+namespace orb::compiler {
+namespace {
+
+/// What the program itself brings about: it cannot be anything at any time.
+bool is_brought_about(const spec::VariableInfo& row) {
+  return row.unit == "ms" || row.unit == "cm" || row.variable == spec::Variable::Speed;
+}
+
+} // namespace
+
+void TrialLine::stop(const Rule& rule, Span span, Message message, Message help) {
+  if (quiet_ || stopped_)
+    return;
+  stopped_ = true;
+  const bool said = std::any_of(trial_.faults.begin(), trial_.faults.end(),
+                                [&](const TrialFault& one) { return one.span == span; });
+  if (!probing_ && !said)
+    trial_.faults.push_back(
+        {&rule, span, std::move(message), std::move(help), now_.decision, runs_[line_] > 1});
+}
+
+std::uint32_t TrialLine::round() const {
+  const auto runs = runs_[line_];
+  return now_.decision == none && now_.calls.empty() && runs > 1 ? runs : 0;
+}
+
+void TrialLine::stop_at(Span span, Message allowed, const Range& range, Message help) {
+  const auto text = program_.text_of(span);
+  stop(rules::MayLeaveRange, span,
+       round() > 0 ? texts::ButBecomesInRound(std::move(allowed), text, shown(range), round())
+                   : texts::ButBecomes(std::move(allowed), text, shown(range)),
+       std::move(help));
+}
+
+const TrialValue& TrialLine::value(const Item& item) {
+  for (auto n = program_.nodes[item.value].first; n <= item.value; ++n)
+    known_[n] = compute(program_.nodes[n], n);
+  return known_[item.value];
+}
+
+TrialValue TrialLine::compute(const Node& node, std::uint32_t index) {
+  switch (node.kind) {
+  case NodeKind::Number: return node.overflow ? TrialValue{} : TrialValue::only(node.value);
+  case NodeKind::Letter: return now_.letters[node.what];
+  case NodeKind::Indexed: return element(node.span);
+  case NodeKind::System: {
+    const auto& row = spec::variables[node.what];
+    return {{row.least, row.greatest}, true, true, is_brought_about(row)};
+  }
+  case NodeKind::Group: return known_[index - 1];
+  case NodeKind::Negate:
+    return sum_of(spec::Operator::Subtract, TrialValue::only(0), known_[index - 1]);
+  case NodeKind::Call: return call(node, index);
+  case NodeKind::Binary: {
+    const auto& right = known_[index - 1];
+    const auto left = program_.nodes[index - 1].first - 1;
+    check_right(static_cast<spec::Operator>(node.what), program_.nodes[index - 1].span,
+                right.range);
+    return sum_of(static_cast<spec::Operator>(node.what), known_[left], right);
+  }
+  }
+  return {};
+}
+
+TrialValue TrialLine::call(const Node& node, std::uint32_t index) {
+  const auto& row = spec::functions[node.what];
+  const auto& operand = known_[index - 1];
+  const auto span = program_.nodes[index - 1].span;
+  if (operand.range.misses(row.least, row.greatest))
+    stop_at(span, texts::TakesOrMore(row.word, row.least), operand.range);
+  TrialValue result{apply(row.function, operand.range), operand.exact};
+  if (result.range.constant())
+    return TrialValue::only(result.range.lo);
+  result.dense = row.function == spec::Function::Rnd && operand.range.constant();
+  result.driven = operand.driven;
+  return result;
+}
+
+void TrialLine::check_right(spec::Operator op, Span span, const Range& right) {
+  const auto most = spec::value_of(spec::Limit::GreatestShift);
+  const bool divides = op == spec::Operator::Divide || op == spec::Operator::Remainder;
+  const bool shifts = op == spec::Operator::ShiftLeft || op == spec::Operator::ShiftRight;
+  const auto text = program_.text_of(span);
+  if (divides && right == Range::only(0))
+    stop(rules::MayLeaveRange, span,
+         round() > 0 ? texts::DividesByZeroInRound(text, round()) : texts::DividesByZeroHere(text));
+  else if (shifts && right.misses(0, most))
+    stop_at(span, texts::ShiftMustBe(most), right);
+}
+
+TrialValue* TrialLine::selected(Span span) {
+  const auto& index = now_.letters[index_letter].range;
+  const auto most = spec::value_of(spec::Limit::IndexedVariables);
+  if (index.misses(1, most))
+    stop(rules::MayLeaveRange, span, texts::UsedWhileIndexBecomes('Z', 'Y', shown(index), 1, most));
+  return index.constant() && index.lo >= 1 && index.lo <= most
+             ? &now_.elements[static_cast<std::size_t>(index.lo) - 1]
+             : nullptr;
+}
+
+TrialValue TrialLine::element(Span span) {
+  const auto* one = selected(span);
+  return one == nullptr ? TrialValue{} : *one;
+}
+
+void TrialLine::check_value(const Item& item, std::string_view word,
+                            const spec::Parameter& parameter) {
+  const auto& range = value(item).range;
+  if (!range.misses(parameter.least, parameter.greatest))
+    return;
+  Message help;
+  if (parameter.unit == "deg" && range.lo > 0)
+    help = texts::WriteRemainder(in_parentheses(item), parameter.greatest + 1);
+  stop_at(item.span, allowed_values(word, parameter), range, std::move(help));
+}
+
+std::string TrialLine::in_parentheses(const Item& item) const {
+  const auto kind = program_.nodes[item.value].kind;
+  const auto text = std::string(program_.text_of(item.span));
+  return kind == NodeKind::Binary || kind == NodeKind::Negate || kind == NodeKind::Call
+             ? fmt::format("({})", text)
+             : text;
+}
+
+void TrialLine::set(const Item& variable, const TrialValue& to) {
+  if (variable.kind == ItemKind::Letter) {
+    now_.letters[variable.value] = to;
+  } else if (variable.kind == ItemKind::Indexed) {
+    if (auto* one = selected(variable.span))
+      *one = to;
+    else
+      for (auto& any : now_.elements)
+        any = {join(any.range, to.range)};
+  }
+}
+
+void TrialLine::bind(const Item& expression) {
+  for (auto n = program_.nodes[expression.value].first; n <= expression.value; ++n)
+    if (const auto& node = program_.nodes[n]; node.kind == NodeKind::Letter)
+      if (auto& letter = now_.letters[node.what]; !letter.range.constant())
+        letter.exact = letter.dense = false;
+}
+
+void TrialLine::obey(const StatementNode& statement) {
+  const auto& row = spec::info(statement.kind);
+  const auto items = program_.items_of(statement);
+  if (row.form == spec::Form::Assignment)
+    return let(program_.as<LetView>(statement));
+  if (row.form == spec::Form::Variables)
+    return read(statement);
+  if (row.form == spec::Form::Entry)
+    return input(program_.as<InputView>(statement));
+  if (row.form == spec::Form::Values)
+    now_.data = static_cast<std::uint32_t>(&statement - program_.statements.data());
+  if (row.form == spec::Form::Values || statement.kind == spec::Statement::Rstr)
+    now_.data_next = 0;
+  for (std::size_t i = 0; i < items.size(); ++i)
+    if (row.form == spec::Form::Arguments)
+      check_value(items[i], row.word, row.parameter_slots[i]);
+    else if (items[i].kind == ItemKind::Expression || items[i].kind == ItemKind::Character)
+      value(items[i]);
+}
+
+void TrialLine::let(const LetView& let) {
+  const auto result = value(let.expression);
+  if (let.variable.kind == ItemKind::System) {
+    const auto& row = spec::variables[let.variable.value];
+    if (row.variable != spec::Variable::Ctrl)
+      check_value(let.expression, row.word, {"", row.least, row.greatest, row.unit});
+    return;
+  }
+  bind(let.expression);
+  set(let.variable, result);
+}
+
+void TrialLine::read(const StatementNode& statement) {
+  for (const auto& variable : program_.items_of(statement)) {
+    TrialValue next;
+    if (now_.data == none) {
+      stop(rules::ReadPastData, statement.span, texts::Without("read", "data"),
+           texts::AddDataAbove());
+    } else if (now_.data != Moment::unknown_data) {
+      const auto all = program_.items_of(program_.statements[now_.data]);
+      if (now_.data_next == all.size())
+        return stop(rules::ReadPastData, statement.span,
+                    counted(all.size(), texts::ValueIsRead, texts::ValuesAreRead),
+                    texts::WriteRstr());
+      const auto number = number_in(program_, all[now_.data_next++]);
+      next = number ? TrialValue::only(*number) : TrialValue{};
+    }
+    set(variable, next);
+  }
+}
+
+void TrialLine::input(const InputView& input) {
+  const auto& row = spec::info(spec::Statement::Input);
+  if (input.milliseconds != nullptr)
+    check_value(*input.milliseconds, row.word, row.parameter_slots[0]);
+  if (input.fallback != nullptr)
+    value(*input.fallback);
+  const bool asks = input.fallback == nullptr; // else there may be nobody who answers
+  set(input.variable, {{}, asks, asks});
+}
+
+} // namespace orb::compiler

@@ -1,0 +1,521 @@
+#include "compiler/lint/trial_run.h"
+
+#include "compiler/lint/reading.h"
+#include "compiler/lint/trial_line.h"
+#include "compiler/text/rules.h"
+#include "compiler/text/texts.h"
+#include "spec/limits.h"
+
+#include <algorithm>
+#include <deque>
+#include <optional>
+#include <unordered_set>
+#include <utility>
+
+namespace orb::compiler {
+namespace {
+
+/// Who decides where a program goes.
+enum class Decider : std::uint8_t {
+  World,   ///< whoever shakes the ball, or chance: in any way, at any time
+  Program, ///< what it brings about itself: a place, a speed
+  Clock,   ///< a timer, which comes to its end
+};
+
+class TrialRun : private TrialLine {
+public:
+  TrialRun(const Program& program, const Flow& flow) : TrialLine(program, flow), flow_(flow) {}
+
+  Trial run() {
+    ways_.push_back(beginning(program_));
+    while (!ways_.empty() && lines_ < most_lines) {
+      now_ = std::move(ways_.front());
+      ways_.pop_front();
+      while (now_.at < flow_.code.size() && lines_ < most_lines) {
+        const auto from = now_.at;
+        go();
+        if (now_.at <= from && !is_new())
+          break; // it does the same for ever, or what another way did
+      }
+    }
+    return std::move(trial_);
+  }
+
+private:
+  static constexpr std::uint32_t most_lines = 4000; ///< on all ways together
+  static constexpr std::size_t most_ways = 64;      ///< that wait to be followed
+  static constexpr std::uint32_t most_probed =
+      24; ///< lines of a loop that only waits, of ways that meet
+  static constexpr std::uint32_t most_joined = 16; ///< rounds in which both ways go on as one
+  static constexpr std::size_t most_targets = 8;   ///< of an `on` that are followed
+
+  /// Whether nobody was here before with the same known: who comes back, and who parts from here.
+  bool is_new() { return met_.insert(now_.hash()).second; }
+  bool parts_anew() { return parted_.insert(now_.hash()).second; }
+
+  // ---- lines
+
+  void go() {
+    ++lines_;
+    line_ = now_.at;
+    if (now_.decision == none && !probing_)
+      ++runs_[line_];
+    const auto& statement = program_.statements[flow_.code[line_].statement];
+    stopped_ = false;
+    now_.at = whole(statement);
+    if (stopped_)
+      now_.at = none;
+  }
+
+  /// The line of code that comes next; `none` where this way is over, or others go on in its place.
+  std::uint32_t whole(const StatementNode& statement) {
+    if (statement.error)
+      return none;
+    if (spec::info(statement.kind).form == spec::Form::Conditional)
+      return branch(statement);
+    return step(statement);
+  }
+
+  std::uint32_t step(const StatementNode& statement) {
+    if (statement.error)
+      return none;
+    switch (spec::info(statement.kind).form) {
+    case spec::Form::Loop: return begin_loop(program_.as<ForView>(statement));
+    case spec::Form::LoopEnd: return end_loop(program_.as<NextView>(statement));
+    case spec::Form::Branch: return jump(statement, 0);
+    case spec::Form::IndexedBranch: return choose(statement);
+    case spec::Form::Conditional: return none; // within another one
+    case spec::Form::Assignment:
+    case spec::Form::Output:
+    case spec::Form::Entry:
+    case spec::Form::Values:
+    case spec::Form::Variables:
+    case spec::Form::Arguments: break;
+    }
+    if (statement.kind == spec::Statement::Return)
+      return come_back();
+    obey(statement);
+    return spec::info(statement.kind).after == spec::After::Ends ? none : line_ + 1;
+  }
+
+  std::uint32_t begin_loop(const ForView& loop) {
+    if (loop.variable.kind != ItemKind::Letter)
+      return none;
+    const auto letter = loop.variable.value;
+    set(loop.variable, value(loop.start));
+    const auto end = value(loop.end);
+    const auto by = loop.step != nullptr ? value(*loop.step).range : Range::only(1);
+    if (by == Range::only(0))
+      stop(rules::ZeroStep, loop.step->span, texts::StepIsZero());
+    if (!by.constant() || stopped_)
+      return none;
+    // The innermost loop may begin again.
+    if (!now_.loops.empty() && now_.loops.back().letter == letter)
+      now_.loops.pop_back();
+    if (now_.loops.size() == static_cast<std::size_t>(spec::value_of(spec::Limit::ForDepth)))
+      return none; // which is said elsewhere
+    bind(loop.end);
+    now_.loops.push_back({letter, line_ + 1, by.lo, end});
+    return line_ + 1;
+  }
+
+  std::uint32_t end_loop(const NextView& next) {
+    if (next.variable.kind != ItemKind::Letter)
+      return none;
+    if (now_.loops.empty()) {
+      stop(rules::NextWithoutFor, next.variable.span, texts::Without("next", "for"));
+      return none;
+    }
+    auto& loop = now_.loops.back();
+    if (loop.letter != next.variable.value) {
+      stop(rules::NextWithoutFor, next.variable.span,
+           texts::InnermostLoopVariable(program_.text_of(loop_variable(loop.body - 1))));
+      return none;
+    }
+    auto& counter = now_.letters[loop.letter];
+    counter = sum_of(spec::Operator::Add, counter, TrialValue::only(loop.step));
+    const auto over = loop.step > 0 ? spec::Relation::Greater : spec::Relation::Less;
+    if (!where(over, Holds::Yes, counter.range, loop.end.range))
+      return loop.body;
+    if (where(over, Holds::No, counter.range, loop.end.range))
+      return leave_or_not(over);
+    now_.loops.pop_back();
+    return line_ + 1;
+  }
+
+  /// The end of the loop is not known.
+  std::uint32_t leave_or_not(spec::Relation over) {
+    const auto& open = now_.loops.back();
+    const auto counter = now_.letters[open.letter].range;
+    if (!open.end.exact || !counter.constant() || is_settled(open.end.driven))
+      return none;
+    auto stays = now_;
+    auto& loop = stays.loops.back();
+    loop.end.range = *where(mirrored(over), Holds::No, loop.end.range, counter);
+    loop.end.exact = loop.end.dense;
+    stays.at = loop.body;
+    auto leaves = now_;
+    leaves.loops.pop_back();
+    leaves.at = line_ + 1;
+    decide(stays, {}, Holds::Yes);
+    decide(leaves, {}, Holds::No);
+    const auto decider = decider_of(open.end.driven);
+    return part({std::move(stays), std::move(leaves)}, decider);
+  }
+
+  Span loop_variable(std::uint32_t code) const {
+    return program_.items_of(program_.statements[flow_.code[code].statement]).front().span;
+  }
+
+  /// To the line that the item names, by its place among those of the statement.
+  std::uint32_t jump(const StatementNode& statement, std::uint32_t nth) {
+    for (const auto& way : flow_.jumps_of(flow_.code[line_])) {
+      if (way.item != statement.items_begin + nth || way.to == none)
+        continue;
+      if (!way.call)
+        return way.to;
+      if (now_.calls.size() == static_cast<std::size_t>(spec::value_of(spec::Limit::GosubDepth)))
+        return none; // which is said elsewhere
+      now_.calls.push_back(line_ + 1);
+      return way.to;
+    }
+    return none;
+  }
+
+  std::uint32_t come_back() {
+    if (now_.calls.empty())
+      return none; // which is said elsewhere
+    const auto at = now_.calls.back();
+    now_.calls.pop_back();
+    return at;
+  }
+
+  std::uint32_t choose(const StatementNode& statement) {
+    const auto on = program_.as<OnView>(statement);
+    const auto selector = value(on.selector);
+    const auto count = static_cast<std::int32_t>(on.targets.size());
+    if (selector.range.misses(1, count))
+      stop_at(on.selector.span, counted(on.targets.size(), texts::ListHasOne, texts::ListHas),
+              selector.range);
+    if (stopped_)
+      return none;
+    if (selector.range.constant())
+      return jump(statement, static_cast<std::uint32_t>(selector.range.lo));
+    if (!selector.dense || on.targets.size() > most_targets || is_settled(selector.driven))
+      return none;
+    const auto here = now_;
+    std::vector<Moment> ways;
+    for (auto n = std::max(selector.range.lo, 1); n <= std::min(selector.range.hi, count); ++n) {
+      now_ = here;
+      narrow(on.selector, Range::only(n));
+      now_.at = jump(statement, static_cast<std::uint32_t>(n));
+      decide(now_, {}, Holds::Yes);
+      ways.push_back(std::move(now_));
+    }
+    now_ = here;
+    return part(std::move(ways), decider_of(selector.driven));
+  }
+
+  // ---- conditions
+
+  std::uint32_t branch(const StatementNode& statement) {
+    const auto condition = program_.as<IfView>(statement);
+    const auto* yes = &program_.statements[statement.then_branch];
+    const auto* no =
+        statement.else_branch == none ? nullptr : &program_.statements[statement.else_branch];
+    const auto holds = truth(condition);
+    if (stopped_)
+      return none;
+    if (holds)
+      return take(*holds ? yes : no);
+    const bool meet = goes_on(*yes) && (no == nullptr || goes_on(*no));
+    const bool driven =
+        is_driven(condition.first) || (condition.second && is_driven(*condition.second));
+    const bool open = is_open(condition.first) &&
+                      (!condition.second || is_open(*condition.second)) && !is_settled(driven);
+    if (!open)
+      return meet ? join_branches(*yes, no) : none;
+    const bool idle = meet && is_idle(*yes) && (no == nullptr || is_idle(*no));
+    const auto here = now_;
+    const auto span = span_of(condition);
+    std::vector<Moment> ways;
+    for (const auto answer : {Holds::Yes, Holds::No}) {
+      now_ = here;
+      stopped_ = false;
+      if (!assume(condition, answer))
+        continue;
+      decide(now_, span, answer);
+      const auto to = take(answer == Holds::Yes ? yes : no);
+      now_.at = stopped_ ? none : to;
+      ways.push_back(std::move(now_));
+    }
+    now_ = here;
+    stopped_ = false;
+    if (idle)
+      return line_ + 1;
+    const auto decider = waits_for_time(statement) ? Decider::Clock : decider_of(driven);
+    const auto next = part(std::move(ways), decider);
+    if (next != none || probing_ || !meet || here.decision != none || runs_[line_] > most_joined)
+      return next;
+    now_ = here; // whatever was decided: what is wrong then is certain
+    return join_branches(*yes, no);
+  }
+
+  static Decider decider_of(bool driven) { return driven ? Decider::Program : Decider::World; }
+
+  /// Whether a condition is about timers alone.
+  bool waits_for_time(const StatementNode& statement) const {
+    bool timers = false;
+    for (auto n = statement.nodes_begin; n < statement.nodes_end; ++n) {
+      const auto& node = program_.nodes[n];
+      if (node.kind == NodeKind::Number || node.kind == NodeKind::Group)
+        continue;
+      if (node.kind != NodeKind::System || spec::variables[node.what].unit != "ms")
+        return false;
+      timers = true;
+    }
+    return timers;
+  }
+
+  static Span span_of(const IfView& condition) {
+    return {condition.first.left.span.begin, condition.last().right.span.end};
+  }
+
+  std::uint32_t take(const StatementNode* branch) {
+    return branch == nullptr ? line_ + 1 : step(*branch);
+  }
+
+  /// Both ways lead to the next line, and nobody knows whether there are two.
+  std::uint32_t join_branches(const StatementNode& yes, const StatementNode* no) {
+    const bool quiet = std::exchange(quiet_, true);
+    const auto before = now_;
+    obey(yes);
+    const auto after = std::exchange(now_, before);
+    if (no != nullptr)
+      obey(*no);
+    join_into(now_, after);
+    quiet_ = quiet;
+    return line_ + 1;
+  }
+
+  /// Whether the line below comes next, whatever happens.
+  static bool goes_on(const StatementNode& statement) {
+    const auto after = spec::info(statement.kind).after;
+    return !statement.error && (after == spec::After::Falls || after == spec::After::Waits);
+  }
+
+  /// Whether a statement leaves all that is known as it is.
+  static bool is_idle(const StatementNode& statement) {
+    const auto form = spec::info(statement.kind).form;
+    return form == spec::Form::Output ||
+           (form == spec::Form::Arguments && statement.kind != spec::Statement::Rstr);
+  }
+
+  std::optional<bool> truth(const IfView& condition) {
+    const auto first = truth(condition.first);
+    if (condition.joint == nullptr)
+      return first;
+    const bool quiet = std::exchange(quiet_, true); // it need not be looked at
+    const auto second = truth(*condition.second);
+    quiet_ = quiet;
+    const bool decides = condition.joint->kind == ItemKind::Or; // as soon as one is this
+    if (first == decides || second == decides)
+      return decides;
+    return first && second ? std::optional(!decides) : std::nullopt;
+  }
+
+  std::optional<bool> truth(const Comparison& comparison) {
+    const auto relation = static_cast<spec::Relation>(comparison.relation.value);
+    const auto left = value(comparison.left).range;
+    const auto right = value(comparison.right).range;
+    if (!where(relation, Holds::No, left, right))
+      return true;
+    if (!where(relation, Holds::Yes, left, right))
+      return false;
+    return std::nullopt;
+  }
+
+  /// Whether a comparison that was just computed can be answered in both ways, or its answer is
+  /// known.
+  bool is_open(const Comparison& comparison) const {
+    const auto relation = static_cast<spec::Relation>(comparison.relation.value);
+    const auto& left = known_[comparison.left.value];
+    const auto& right = known_[comparison.right.value];
+    if (!where(relation, Holds::No, left.range, right.range) ||
+        !where(relation, Holds::Yes, left.range, right.range))
+      return true;
+    const bool equals = relation == spec::Relation::Equal || relation == spec::Relation::NotEqual;
+    return equals ? left.dense && right.dense : left.exact && right.exact;
+  }
+
+  bool is_driven(const Comparison& comparison) const {
+    return known_[comparison.left.value].driven || known_[comparison.right.value].driven;
+  }
+
+  /// Whether what the program itself brings about has decided here before, on this way: how often
+  /// it can do so nobody knows.
+  bool is_settled(bool driven) const {
+    return driven && std::find(now_.driven.begin(), now_.driven.end(), line_) != now_.driven.end();
+  }
+
+  /// Narrows what is compared to where the condition holds or not; false where that cannot be.
+  bool assume(const IfView& condition, Holds holds) {
+    static_cast<void>(truth(condition)); // computed anew
+    if (condition.joint == nullptr)
+      return assume(condition.first, holds);
+    if ((condition.joint->kind == ItemKind::And) != (holds == Holds::Yes)) { // either of the two
+      for (const auto* side : {&condition.first, &*condition.second}) {
+        bind(side->left);
+        bind(side->right);
+      }
+      return true;
+    }
+    if (!assume(condition.first, holds))
+      return false;
+    const bool quiet = std::exchange(quiet_, true);
+    static_cast<void>(truth(*condition.second));
+    quiet_ = quiet;
+    return assume(*condition.second, holds);
+  }
+
+  bool assume(const Comparison& comparison, Holds holds) {
+    const auto relation = static_cast<spec::Relation>(comparison.relation.value);
+    const auto left = known_[comparison.left.value].range;
+    const auto right = known_[comparison.right.value].range;
+    const auto left_where = where(relation, holds, left, right);
+    const auto right_where = where(mirrored(relation), holds, right, left);
+    if (!left_where || !right_where)
+      return false;
+    narrow(comparison.left, *left_where);
+    narrow(comparison.right, *right_where);
+    if (!left.constant() && !right.constant()) {
+      bind(comparison.left);
+      bind(comparison.right);
+    }
+    // An inner value that it is not leaves a gap.
+    const bool equal = (relation == spec::Relation::Equal) == (holds == Holds::Yes);
+    const bool names = relation == spec::Relation::Equal || relation == spec::Relation::NotEqual;
+    if (names && !equal && *left_where == left)
+      for (const auto* side : {&comparison.left, &comparison.right})
+        if (const auto letter = letter_in(program_, *side))
+          now_.letters[*letter].dense = now_.letters[*letter].range.constant();
+    return true;
+  }
+
+  void narrow(const Item& side, const Range& to) {
+    const auto letter = letter_in(program_, side);
+    if (!letter)
+      return bind(side);
+    auto& value = now_.letters[*letter];
+    if (value.range == to)
+      return;
+    value.range = to;
+    value.exact = value.dense = value.dense || to.constant();
+  }
+
+  // ---- ways
+
+  void decide(Moment& way, Span span, Holds holds) {
+    trial_.decisions.push_back({span, holds, way.decision});
+    way.decision = static_cast<std::uint32_t>(trial_.decisions.size() - 1);
+  }
+
+  /// Goes on along each of the ways, but those that come back here with nothing changed: there the
+  /// program waits for another one, which comes where it waits for time. Ways that meet soon are
+  /// one.
+  std::uint32_t part(std::vector<Moment> ways, Decider decider) {
+    if (probing_ || !parts_anew())
+      return none;
+    const auto waits = std::erase_if(ways, [&](const Moment& way) { return comes_back(way); });
+    if (waits > 0 && ways.size() == 1) {
+      auto& only = ways.front();
+      if (decider == Decider::Clock) {
+        for (auto& fault : trial_.faults)
+          if (fault.decision == only.decision)
+            fault.decision = now_.decision;
+        only.decision = now_.decision;
+      }
+      now_ = std::move(only);
+      return now_.at;
+    }
+    if (auto meeting = meeting_of(ways)) {
+      meeting->decision = now_.decision;
+      now_ = std::move(*meeting);
+      return now_.at;
+    }
+    for (auto& way : ways) {
+      if (way.at == none || ways_.size() == most_ways)
+        continue;
+      if (decider != Decider::World)
+        way.driven.push_back(line_);
+      ways_.push_back(std::move(way));
+    }
+    return none;
+  }
+
+  /// Follows a way for a few lines, as long as it is the only one and `goes_on` wants more; what it
+  /// does there is not said.
+  template <typename GoesOn>
+  void probe(const Moment& way, const GoesOn& goes_on) {
+    const auto here = std::exchange(now_, way);
+    const auto line = line_;
+    probing_ = true;
+    for (std::uint32_t n = 0; n < most_probed && now_.at < flow_.code.size() && goes_on(); ++n)
+      go();
+    probing_ = false;
+    stopped_ = false;
+    line_ = line;
+    now_ = here;
+  }
+
+  bool comes_back(const Moment& way) {
+    const auto here = now_;
+    bool same = false;
+    probe(way, [&] {
+      same = now_.at == here.at && now_.is_like(here);
+      return now_.at != here.at;
+    });
+    return same;
+  }
+
+  /// Where all ways lead to the same line with the same known.
+  std::optional<Moment> meeting_of(const std::vector<Moment>& ways) {
+    std::optional<Moment> meeting;
+    if (ways.size() < 2)
+      return meeting;
+    std::vector<std::uint64_t> places; // of the first way
+    probe(ways.front(), [&] {
+      places.push_back(now_.hash());
+      return true;
+    });
+    for (std::size_t i = 1; i < ways.size(); ++i) {
+      std::optional<Moment> found;
+      probe(ways[i], [&] {
+        const auto at = std::find(places.begin(), places.end(), now_.hash());
+        if (at == places.end())
+          return true;
+        places.erase(places.begin(), at); // the others have to meet there or later
+        found = now_;
+        return false;
+      });
+      if (!found)
+        return std::nullopt;
+      meeting = std::move(found);
+    }
+    return meeting;
+  }
+
+  const Flow& flow_;
+  std::deque<Moment> ways_;                  ///< that have still to be followed
+  std::uint32_t lines_ = 0;                  ///< how many have run
+  std::unordered_set<std::uint64_t> met_;    ///< hashes of moments to which somebody came back
+  std::unordered_set<std::uint64_t> parted_; ///< and of those from which ways parted
+};
+
+} // namespace
+
+Trial try_program(const Program& program, const Flow& flow) {
+  return TrialRun(program, flow).run();
+}
+
+} // namespace orb::compiler
