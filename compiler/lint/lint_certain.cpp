@@ -67,7 +67,8 @@ void add_possible(const Program& program, const TrialFault& fault, const Trial& 
                   Findings& findings) {
   const auto& all = findings.all();
   if (std::any_of(all.begin(), all.end(), [&](const Diagnostic& d) {
-        return meets(d.span, fault.span) || warns_of(program, d, fault);
+        return (d.severity != Severity::Info && meets(d.span, fault.span)) ||
+               warns_of(program, d, fault);
       }))
     return;
   auto& d = findings.add(*fault.rule, fault.span, fault.message, fault.help);
