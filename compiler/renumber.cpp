@@ -1,7 +1,7 @@
 #include "compiler/renumber.h"
 
 #include "base/fixes.h"
-#include "compiler/lint/flow.h"
+#include "compiler/analyse/flow.h"
 #include "spec/limits.h"
 
 #include <fmt/format.h>

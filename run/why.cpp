@@ -1,6 +1,6 @@
 #include "run/why.h"
 
-#include "compiler/lint/reading.h"
+#include "compiler/analyse/reading.h"
 #include "compiler/lint/sensor_tests.h"
 #include "compiler/text/rules.h"
 #include "run/start.h"

@@ -125,7 +125,7 @@ const std::vector<std::pair<std::string, std::vector<std::string>>> shelves = {
     {"assembler", {"text", ".", "lint"}},
     {"structured",
      {"text", "layout", "meaning", "lower", "analyse", "optimise", "emit", ".", "lift"}},
-    {"compiler", {"text", "messages", "lint", "."}},
+    {"compiler", {"text", "messages", "analyse", "lint", "."}},
     {"testing", {"text", ".", "verdicts"}},
     {"cli",
      {"model", "bluez", "context", "input", "terminal", "robot", "many", "ball", "run", "room",

@@ -110,6 +110,7 @@ void lint_ways(const Program& program, const Flow& flow, Findings& findings) {
   lint_intent(program, flow, findings);
   lint_units(program, flow, findings);
   lint_waits(program, flow, findings);
+  lint_meant(program, flow, findings);
   lint_sums(program, flow, findings);
   lint_certain(program, flow, findings);
 }

@@ -1,6 +1,6 @@
+#include "compiler/analyse/trial_need.h"
+#include "compiler/analyse/trial_run.h"
 #include "compiler/lint/lint_passes.h"
-#include "compiler/lint/trial_need.h"
-#include "compiler/lint/trial_run.h"
 #include "compiler/text/rules.h"
 
 #include <algorithm>

@@ -154,7 +154,7 @@ private:
       reported = true;
       auto& d = findings_.add(rules::FallIntoSubroutine, statement(i - 1).span,
                               texts::FallsIntoSubroutine(number_of(i)), texts::AddEndAfterThis());
-      add_above(d, i, "end", texts::EndHere());
+      add_above(d, i, "end");
       add_note(d, statement(i).span, texts::SubroutineBeginsHere());
     }
     if (reported)
@@ -167,7 +167,7 @@ private:
   }
 
   /// Offers a line in front of a line of code, where there is a number for it.
-  void add_above(Diagnostic& d, std::uint32_t code, std::string_view word, Message title) const {
+  void add_above(Diagnostic& d, std::uint32_t code, std::string_view word) const {
     const auto below = number_of(code);
     const auto above = number_of(code - 1);
     if (below < above + 2)
@@ -176,7 +176,7 @@ private:
     const auto at = program_.lines[line_of(code)].span.begin;
     const auto line = fmt::format("{} {}", number, word);
     d.help = texts::WriteAfterThis(line);
-    d.fix = single_fix(std::move(title), {at, at}, line + "\n", Safety::Unsafe);
+    d.fix = single_fix(d.help, {at, at}, line + "\n", Safety::Unsafe);
   }
 
   /// Subroutines that go on in the next one, for lack of a `return`. Two may share an end on
@@ -189,10 +189,9 @@ private:
           number_of(first) % round_number != 0 || number_of(next) % round_number != 0 ||
           !stands_apart(first, next) || !acts_alone(first, next) || !falls_to_return(next))
         continue;
-      auto& d =
-          findings_.add(rules::FallIntoSubroutine, statement(next - 1).span,
-                        texts::RunsOn(number_of(first), number_of(next)), texts::AddReturnAfter());
-      add_above(d, next, "return", texts::ReturnHere());
+      auto& d = findings_.add(rules::FallIntoSubroutine, statement(next - 1).span,
+                              texts::RunsOn(number_of(first), number_of(next)));
+      add_above(d, next, "return");
       add_note(d, statement(next).span, texts::SubroutineBeginsHere());
     }
   }
@@ -440,7 +439,6 @@ private:
   /// Beyond these the checks that look at pairs of lines are left out: no area of the robot holds
   /// such a program, and a linter must not take minutes over it.
   static constexpr std::size_t most_routines = 256;
-  static constexpr std::uint32_t longest_loop = 1024; ///< lines
 
   const Program& program_;
   const Flow& flow_;

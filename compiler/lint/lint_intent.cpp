@@ -1,8 +1,8 @@
 #include "base/text/text.h"
 #include "compiler/lint/lint_passes.h"
 
-#include "compiler/lint/letters.h"
-#include "compiler/lint/reading.h"
+#include "compiler/analyse/letters.h"
+#include "compiler/analyse/reading.h"
 #include "compiler/text/rules.h"
 #include "spec/colours.h"
 #include "spec/limits.h"

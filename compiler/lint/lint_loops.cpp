@@ -1,4 +1,4 @@
-#include "compiler/lint/letters.h"
+#include "compiler/analyse/letters.h"
 #include "compiler/lint/lint_passes.h"
 
 #include "compiler/text/rules.h"

@@ -2,11 +2,12 @@
 
 #include "base/diagnostic.h"
 #include "base/findings.h"
-#include "compiler/lint/flow.h"
+#include "compiler/analyse/flow.h"
 #include "compiler/lint/lint.h"
 #include "compiler/text/program.h"
 #include "compiler/text/texts.h"
 
+#include <cstdint>
 #include <span>
 #include <string>
 #include <utility>
@@ -16,6 +17,13 @@ namespace orb::compiler {
 
 /// Adds a place that belongs to a finding.
 void add_note(Diagnostic& diagnostic, Span where, Message what);
+
+/// Beyond these no area of the robot holds a loop, and a linter must not take minutes over one.
+inline constexpr std::uint32_t longest_loop = 512;
+
+/// Degrees: one more than the greatest heading.
+inline constexpr std::int32_t full_turn =
+    spec::info(spec::Statement::Goroll).parameters()[0].greatest + 1;
 
 /// A fix of one edit.
 inline Fix single_fix(Message title, Span span, std::string text, Safety safety = Safety::Safe) {
@@ -58,6 +66,10 @@ void lint_units(const Program& program, const Flow& flow, Findings& findings);
 
 /// Loops that wait for what cannot come, and loops that are meant as a wait.
 void lint_waits(const Program& program, const Flow& flow, Findings& findings);
+
+/// Programs that run as they are written, which cannot be what was meant: loops that are over at
+/// once or never, tests that the ball's own way decides.
+void lint_meant(const Program& program, const Flow& flow, Findings& findings);
 
 /// What is computed and lost on the way: values exchanged, sums, products, shares.
 void lint_sums(const Program& program, const Flow& flow, Findings& findings);

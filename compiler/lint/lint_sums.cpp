@@ -1,5 +1,5 @@
+#include "compiler/analyse/reading.h"
 #include "compiler/lint/lint_passes.h"
-#include "compiler/lint/reading.h"
 #include "compiler/lint/sums.h"
 #include "compiler/text/rules.h"
 
@@ -29,7 +29,7 @@ public:
     for (const auto& statement : program_.statements)
       if (!statement.error)
         for (auto n = statement.nodes_begin; n < statement.nodes_end; ++n)
-          check_share(n);
+          check_share(n), check_mean(n);
     check_loops();
     check_products();
   }
@@ -67,13 +67,7 @@ private:
   // ---- two comparisons of one letter or sensor
 
   std::optional<Bound> bound_of(const Comparison& comparison) const {
-    const auto& right = comparison.right;
-    auto number = number_in(program_, right);
-    const auto nodes = nodes_of(program_, right); // `0 - 80`
-    if (!number && nodes.size() == 3 && nodes[0].kind == NodeKind::Number && nodes[0].value == 0 &&
-        nodes[1].kind == NodeKind::Number && nodes[2].kind == NodeKind::Binary &&
-        static_cast<spec::Operator>(nodes[2].what) == spec::Operator::Subtract)
-      number = -nodes[1].value;
+    const auto number = constant_in(program_, comparison.right);
     if (!number)
       return std::nullopt;
     return Bound{static_cast<spec::Relation>(comparison.relation.value), *number};
@@ -160,6 +154,36 @@ private:
         single_fix(texts::Write(line), span, line, Safety::Unsafe);
   }
 
+  // ---- a mean of several
+
+  /// `a + b + c / 3`, as many as are divided by.
+  void check_mean(std::uint32_t n) {
+    const auto& nodes = program_.nodes;
+    const auto is = [&](std::uint32_t node, spec::Operator sign) {
+      return nodes[node].kind == NodeKind::Binary &&
+             static_cast<spec::Operator>(nodes[node].what) == sign;
+    };
+    if (!is(n, spec::Operator::Add) || !is(n - 1, spec::Operator::Divide) ||
+        nodes[n - 2].kind != NodeKind::Number)
+      return;
+    const auto& count = nodes[n - 2];
+    const auto& last = nodes[count.first - 1];
+    constexpr std::int32_t least = 3; // `x + width / 2` is a place
+    std::int32_t found = last.kind == NodeKind::Letter ? 1 : 0;
+    auto sum = nodes[n - 1].first - 1;
+    for (; is(sum, spec::Operator::Add); sum = nodes[sum - 1].first - 1)
+      found += nodes[sum - 1].kind == last.kind ? 1 : 0;
+    found += nodes[sum].kind == last.kind ? 1 : 0;
+    if (found < least || found != count.value)
+      return;
+    const auto& span = nodes[n].span;
+    const auto line =
+        fmt::format("({}) / {}", program_.text_of({span.begin, last.span.end}), found);
+    add(rules::DividesFirst, span,
+        {texts::OnlyLastDivided(program_.text_of(last.span), found), texts::Write(line)})
+        .fix = single_fix(texts::Write(line), span, line, Safety::Unsafe);
+  }
+
   // ---- a product that begins at 0
 
   void note_product(const StatementNode& let) {
@@ -193,9 +217,6 @@ private:
   }
 
   // ---- a sum that begins anew in each round
-
-  /// Beyond these no area of the robot holds a loop.
-  static constexpr std::uint32_t longest_loop = 512;
 
   void check_loops() {
     for (const auto& place : flow_.all(Statement::For))

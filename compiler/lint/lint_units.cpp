@@ -1,5 +1,5 @@
+#include "compiler/analyse/reading.h"
 #include "compiler/lint/lint_passes.h"
-#include "compiler/lint/reading.h"
 #include "compiler/lint/sensor_tests.h"
 #include "compiler/text/rules.h"
 #include "spec/ball.h"
@@ -160,7 +160,6 @@ private:
 
   /// Whether a jump leads from below a line to above it, or to it.
   bool in_loop(std::uint32_t code) const {
-    constexpr std::uint32_t longest_loop = 512; // lines
     for (auto i = code; i < flow_.code.size() && i - code < longest_loop; ++i) {
       if (program_.statements[flow_.code[i].statement].kind == Statement::Next)
         return true;

@@ -1,5 +1,5 @@
+#include "compiler/analyse/reading.h"
 #include "compiler/lint/lint_passes.h"
-#include "compiler/lint/reading.h"
 #include "compiler/lint/sensor_tests.h"
 #include "compiler/text/rules.h"
 #include "spec/limits.h"
@@ -13,9 +13,6 @@ namespace {
 
 using spec::Relation;
 using spec::Statement;
-
-/// Beyond these no area of the robot holds a loop, and a linter must not take minutes over one.
-constexpr std::uint32_t longest_loop = 512;
 
 /// Loops that wait for what cannot come, and loops that are meant as a wait.
 class WaitsPass {

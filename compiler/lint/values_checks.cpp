@@ -3,13 +3,6 @@
 
 namespace orb::compiler {
 
-namespace {
-
-constexpr std::int32_t full_turn =
-    spec::info(spec::Statement::Goroll).parameters()[0].greatest + 1; // degrees
-
-} // namespace
-
 void ValuesPass::check_lines() {
   bool falls = false;
   forget_letters();

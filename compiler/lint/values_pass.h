@@ -1,10 +1,10 @@
 #pragma once
 
 #include "base/text/text.h"
-#include "compiler/lint/letters.h"
+#include "compiler/analyse/letters.h"
+#include "compiler/analyse/range.h"
+#include "compiler/analyse/reading.h"
 #include "compiler/lint/lint_passes.h"
-#include "compiler/lint/range.h"
-#include "compiler/lint/reading.h"
 #include "compiler/text/rules.h"
 #include "spec/limits.h"
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "compiler/lint/range.h"
+#include "compiler/analyse/range.h"
 #include "structured/analyse/flow.h"
 
 #include <optional>

@@ -20,7 +20,7 @@ namespace robot_texts = compiler::texts;
 
 /// The rules that say something about structured programs, too; of what the others are about,
 /// structured/meaning/ knows more.
-bool is_told(const Rule* rule) {
+bool is_told(const Diagnostic& found) {
   for (const auto* told : {&robot::ValueOutOfRange,  &robot::DivisionByZero,  &robot::UnknownFlags,
                            &robot::MissingGo,        &robot::NewerThanTarget, &robot::ReadPastData,
                            &robot::ClearedByReading, &robot::DataReplaced,    &robot::BusyLoop,
@@ -31,10 +31,13 @@ bool is_told(const Rule* rule) {
                            &robot::InvertedWait,     &robot::LoopVariableSet, &robot::EmptyLoop,
                            &robot::AlwaysOne,        &robot::RobotLacks,      &robot::NeverRolls,
                            &robot::WakesElsewhere,   &robot::LostExchange,    &robot::DividesFirst,
-                           &robot::StaysZero,        &robot::SumRestarts,     &robot::EndlessLoop})
-    if (rule == told)
+                           &robot::StaysZero,        &robot::SumRestarts,     &robot::EndlessLoop,
+                           &robot::EarlySensor,      &robot::ExtraTurn})
+    if (found.rule == told)
       return true;
-  return false;
+  const auto& message = found.message; // of these two rules the rest is about one language
+  return message.is(robot_texts::NoRollLeadsThere) || message.is(robot_texts::NeverLess) ||
+         message.is(robot_texts::NeverMore) || message.is(robot_texts::EndsAfterOne);
 }
 
 class MeaningFindings {
@@ -44,7 +47,7 @@ public:
 
   void run(const compiler::Target& target) {
     for (auto& found : compiler::lint_meaning(lines_, target))
-      if (is_told(found.rule))
+      if (is_told(found))
         tell(std::move(found));
   }
 
@@ -62,8 +65,9 @@ private:
         is_said(found, statement))
       return;
     put_into_source_words(found, statement);
-    std::erase_if(found.notes,
-                  [&](const Note& note) { return &statement_at(note.span.begin) == &statement; });
+    std::erase_if(found.notes, [&](const Note& note) {
+      return &statement_at(note.span.begin) == &statement || is_of_test(note);
+    });
     if (found.fix && !std::all_of(found.fix->edits.begin(), found.fix->edits.end(),
                                   [&](const Edit& edit) { return is_typed(edit.span); }))
       found.fix.reset();
@@ -91,6 +95,12 @@ private:
   bool has_unit(const Diagnostic& found) const {
     const auto text = program_.text_of(found.span);
     return found.rule == &robot::WrongUnit && is_digit(text.front()) && is_letter(text.back());
+  }
+
+  /// Lowering turns tests round: whether one holds says nothing of the source.
+  static bool is_of_test(const Note& note) {
+    return note.message.is(robot_texts::WhenThisHolds) ||
+           note.message.is(robot_texts::WhenThisDoesNotHold);
   }
 
   /// Whether that, or worse, is said of the statement already.
@@ -155,10 +165,10 @@ private:
     found.help = {};
     found.fix.reset();
     found.span = statement.span;
-    found.message = arrays.size() == 1
+    found.message = found.rule == &robot::IndexRange ? texts::IndexOutOfBounds()
+                    : arrays.size() == 1
                         ? texts::IndexCanLeave(program_.name(arrays[0]->name), arrays[0]->value)
-                    : is_error(found) ? texts::IndexOutOfBounds()
-                                      : texts::AnIndexCanLeave();
+                        : texts::AnIndexCanLeave();
   }
 
   /// A copy of a sensor: the loop is to read the sensor itself.

@@ -1,7 +1,7 @@
 #include "structured/lift/statements.h"
 
 #include "base/units.h"
-#include "compiler/lint/reading.h"
+#include "compiler/analyse/reading.h"
 #include "spec/limits.h"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "base/diagnostic.h"
-#include "compiler/lint/flow.h"
+#include "compiler/analyse/flow.h"
 #include "compiler/text/program.h"
 
 #include <cstdint>

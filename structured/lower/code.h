@@ -5,7 +5,7 @@
 // index. Lowering writes it, each pass of the optimiser rewrites it, the last stages print it.
 
 #include "base/source.h"
-#include "compiler/lint/range.h"
+#include "compiler/analyse/range.h"
 #include "spec/basic.h"
 #include "structured/text/program.h"
 

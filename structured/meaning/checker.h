@@ -1,6 +1,6 @@
 #pragma once
 
-#include "compiler/lint/range.h"
+#include "compiler/analyse/range.h"
 #include "compiler/lint/sensor_tests.h"
 #include "compiler/lint/sums.h"
 #include "compiler/text/rules.h"

@@ -1,6 +1,6 @@
 #include "structured/optimise/long_prints.h"
 
-#include "compiler/lint/range.h"
+#include "compiler/analyse/range.h"
 #include "spec/limits.h"
 
 #include <algorithm>

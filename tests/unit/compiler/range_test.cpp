@@ -1,4 +1,4 @@
-#include "compiler/lint/range.h"
+#include "compiler/analyse/range.h"
 
 #include "base/random.h"
 #include "bytecode/arithmetic.h"

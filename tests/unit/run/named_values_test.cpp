@@ -49,8 +49,8 @@ TEST(NamedValues, AreTheNamesOfAStructuredProgram) {
                                    "  twice = n * 2 + speed\n  seen[n] = twice\n  turns += twice\n"
                                    "end sub\nfor i = 1 to 3\n  leg(i)\nnext i\nleg(3)\n"
                                    "print turns, seen[2]\n"),
-            // What moves to its only reader is held by no letter: `n`, and the last sum.
-            "i:1,2,3,4 twice/leg:2,4,6 turns:2,6,12 seen[1]:2 seen[2]:4 seen[3]:6");
+            // What moves to its only reader is held by no letter: the last sum.
+            "i:1,2,3,4 twice/leg:2,4,6 n/leg:1,2,3 turns:2,6,12 seen[1]:2 seen[2]:4 seen[3]:6");
 }
 
 TEST(NamedValues, AreNoneOfAMacro) {

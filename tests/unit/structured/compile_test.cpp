@@ -80,11 +80,11 @@ TEST(Lines, ALoopThatIsLeftKeepsNoFrame) {
 
 TEST(Lines, ALoopThatIsLeftForElsewhereIsEndedThere) {
   const auto text = "loop\n  hit = 0\n  for t = 1 to 9\n    delay 1s\n    if yaw > 90 then\n"
-                    "      hit = 1\n      exit\n    end if\n    LEDC t\n  next t\n"
+                    "      hit = 1\n      exit\n    end if\n    print t\n  next t\n"
                     "  if hit then\n    print \"hit\"\n    RGB red\n  else\n    print \"none\"\n"
                     "    RGB blue\n  end if\nend loop\n";
   EXPECT_EQ(lines(text),
-            "1 for T = 1 to 9\n2 delay 1000\n3 if yaw > 90 then goto 9\n4 LEDC T\n5 next T\n"
+            "1 for T = 1 to 9\n2 delay 1000\n3 if yaw > 90 then goto 9\n4 print T\n5 next T\n"
             "6 print \"none\"\n7 RGB 0,0,255\n8 goto 1\n9 T = 9\n10 next T\n11 print \"hit\"\n"
             "12 RGB 255,0,0\n13 goto 1\n");
   EXPECT_TRUE(compiled(text).program.diagnostics.empty()); // no loop is left open

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "base/diagnostic.h"
-#include "compiler/lint/trial_moment.h"
-#include "compiler/lint/trial_run.h"
+#include "compiler/analyse/trial_moment.h"
+#include "compiler/analyse/trial_run.h"
 
 #include <cstdint>
 #include <string>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "compiler/lint/range.h"
+#include "compiler/analyse/range.h"
 #include "compiler/text/program.h"
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-#include "compiler/lint/flow.h"
+#include "compiler/analyse/flow.h"
 
 #include <algorithm>
 #include <numeric>

@@ -1,6 +1,6 @@
-#include "compiler/lint/trial_need.h"
+#include "compiler/analyse/trial_need.h"
 
-#include "compiler/lint/range.h"
+#include "compiler/analyse/range.h"
 #include "spec/limits.h"
 
 #include <algorithm>

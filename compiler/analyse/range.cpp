@@ -1,4 +1,4 @@
-#include "compiler/lint/range.h"
+#include "compiler/analyse/range.h"
 
 #include "compiler/text/texts.h"
 #include "spec/limits.h"

@@ -1,4 +1,4 @@
-#include "compiler/lint/letters.h"
+#include "compiler/analyse/letters.h"
 
 #include <algorithm>
 #include <bit>

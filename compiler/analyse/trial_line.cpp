@@ -1,6 +1,6 @@
-#include "compiler/lint/trial_line.h"
+#include "compiler/analyse/trial_line.h"
 
-#include "compiler/lint/reading.h"
+#include "compiler/analyse/reading.h"
 #include "compiler/text/rules.h"
 #include "compiler/text/texts.h"
 #include "spec/limits.h"

@@ -1,7 +1,7 @@
-#include "compiler/lint/trial_run.h"
+#include "compiler/analyse/trial_run.h"
 
-#include "compiler/lint/reading.h"
-#include "compiler/lint/trial_line.h"
+#include "compiler/analyse/reading.h"
+#include "compiler/analyse/trial_line.h"
 #include "compiler/text/rules.h"
 #include "compiler/text/texts.h"
 #include "spec/limits.h"

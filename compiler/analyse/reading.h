@@ -22,6 +22,23 @@ inline std::optional<std::int32_t> number_in(const Program& program, const Item&
   return node.kind == NodeKind::Number && !node.overflow ? std::optional(node.value) : std::nullopt;
 }
 
+/// The number that is written there, below 0, too: as `-5` or `0 - 5`.
+inline std::optional<std::int32_t> constant_in(const Program& program, const Item& item) {
+  if (const auto number = number_in(program, item))
+    return number;
+  const auto& root = bare(program, item);
+  const auto& nodes = program.nodes;
+  const auto last = static_cast<std::size_t>(&root - nodes.data()) - 1;
+  const bool negates = root.kind == NodeKind::Negate ||
+                       (root.kind == NodeKind::Binary &&
+                        static_cast<spec::Operator>(root.what) == spec::Operator::Subtract &&
+                        nodes[root.first].kind == NodeKind::Number &&
+                        nodes[root.first].value == 0 && root.first + 1 == last);
+  if (!negates || nodes[last].kind != NodeKind::Number || nodes[last].overflow)
+    return std::nullopt;
+  return -nodes[last].value;
+}
+
 inline std::optional<spec::Variable> sensor_in(const Program& program, const Item& item) {
   const auto& node = bare(program, item);
   return node.kind == NodeKind::System ? std::optional(static_cast<spec::Variable>(node.what))
@@ -58,10 +75,10 @@ struct SensorTest {
 
 inline std::optional<SensorTest> sensor_test(const Program& program, const Comparison& comparison) {
   const auto relation = static_cast<spec::Relation>(comparison.relation.value);
-  if (const auto number = number_in(program, comparison.right))
+  if (const auto number = constant_in(program, comparison.right))
     if (const auto sensor = sensor_in(program, comparison.left))
       return SensorTest{*sensor, relation, *number, &comparison.right};
-  if (const auto number = number_in(program, comparison.left))
+  if (const auto number = constant_in(program, comparison.left))
     if (const auto sensor = sensor_in(program, comparison.right))
       return SensorTest{*sensor, mirrored(relation), *number, &comparison.left};
   return std::nullopt;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "compiler/lint/flow.h"
+#include "compiler/analyse/flow.h"
 #include "compiler/text/program.h"
 
 namespace orb::compiler {

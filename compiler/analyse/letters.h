@@ -1,7 +1,7 @@
 #pragma once
 
-#include "compiler/lint/flow.h"
-#include "compiler/lint/range.h"
+#include "compiler/analyse/flow.h"
+#include "compiler/analyse/range.h"
 #include "spec/limits.h"
 
 #include <array>

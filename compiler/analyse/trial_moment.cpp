@@ -1,4 +1,4 @@
-#include "compiler/lint/trial_moment.h"
+#include "compiler/analyse/trial_moment.h"
 
 #include "spec/limits.h"
 
@@ -12,7 +12,7 @@ namespace {
 class Mixer {
 public:
   void add(std::uint64_t word) {
-    constexpr std::uint64_t prime = 0x100000001b3;
+    constexpr std::uint64_t prime = 0x100000001b3; // of FNV-1a
     value_ = (value_ ^ word) * prime;
     value_ ^= value_ >> 32;
   }
@@ -28,7 +28,7 @@ public:
   std::uint64_t value() const { return value_; }
 
 private:
-  std::uint64_t value_ = 0xcbf29ce484222325;
+  std::uint64_t value_ = 0xcbf29ce484222325; ///< of FNV-1a: where it begins
 };
 
 } // namespace

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "base/diagnostic.h"
-#include "compiler/lint/flow.h"
-#include "compiler/lint/range.h"
+#include "compiler/analyse/flow.h"
+#include "compiler/analyse/range.h"
 #include "compiler/text/program.h"
 
 #include <cstdint>

@@ -1,0 +1,487 @@
+#include "compiler/analyse/letters.h"
+#include "compiler/analyse/reading.h"
+#include "compiler/lint/lint_passes.h"
+#include "compiler/lint/sensor_tests.h"
+#include "compiler/lint/sums.h"
+#include "compiler/text/rules.h"
+#include "spec/limits.h"
+
+#include <algorithm>
+#include <array>
+#include <fmt/format.h>
+#include <limits>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace orb::compiler {
+namespace {
+
+using spec::Relation;
+using spec::Statement;
+using spec::Variable;
+
+/// Programs that run as they are written, which cannot be what was meant: loops that are over at
+/// once or never, tests that the ball's own way decides.
+class MeantPass {
+public:
+  MeantPass(const Program& program, const Flow& flow, Findings& findings)
+      : program_(program), flow_(flow), findings_(findings),
+        size_(static_cast<std::uint32_t>(flow.code.size())) {}
+
+  void run() {
+    read_settings();
+    for (const auto& place : flow_.all(Statement::Goroll))
+      if (flow_.is_line(place))
+        check_early_test(place.code);
+    for (const auto& place : flow_.all(Statement::Raw))
+      if (flow_.is_line(place))
+        check_roll_below(place.code);
+    for (const auto& place : flow_.all(Statement::For))
+      if (flow_.is_line(place)) {
+        check_turns(place.code);
+        if (const auto next = next_below(place.code); next > place.code + 1)
+          check_data(place.code + 1, next - 1);
+      }
+    for (const auto& jump : flow_.jumps)
+      if (!jump.call && jump.to <= jump.from && jump.from - jump.to < longest_loop)
+        check_back(jump);
+    check_places();
+    check_extremes();
+  }
+
+private:
+  const StatementNode& statement_of(std::uint32_t code) const {
+    return program_.statements[flow_.code[code].statement];
+  }
+  std::optional<std::int32_t> number(const Item& item) const { return constant_in(program_, item); }
+  /// Whether a line is one statement that leads to the next line.
+  bool is_plain(std::uint32_t code) const {
+    const auto& statement = statement_of(code);
+    return !statement.error && statement.then_branch == none && flow_.code[code].falls &&
+           flow_.jumps_of(flow_.code[code]).empty();
+  }
+  static Span span_of(const Comparison& comparison) {
+    return {comparison.left.span.begin, comparison.right.span.end};
+  }
+
+  // ---- a speed that is tested before the ball can have begun to move
+
+  /// From a roll along the only way there is, up to a test before which no time passes. The ball
+  /// must have been at rest: nothing rolls above.
+  void check_early_test(std::uint32_t roll) {
+    const auto items = program_.items_of(statement_of(roll));
+    for (std::uint32_t i = 0; i < roll; ++i)
+      if (!is_plain(i) || flow_.code[i].target || statement_of(i).kind == Statement::Goroll)
+        return;
+    if (number(items[1]).value_or(1) <= 0 || flow_.code[roll].target)
+      return;
+    constexpr int most_steps = 8;
+    auto at = roll + 1;
+    for (int step = 0; step < most_steps && at < size_; ++step) {
+      const auto& statement = statement_of(at);
+      if (statement.error || flow_.code[at].waits || flow_.code[at].loops)
+        return;
+      if (statement.kind == Statement::If)
+        return judge_early(at);
+      if (statement.kind == Statement::Goto)
+        at = flow_.jumps_of(flow_.code[at]).front().to;
+      else if (is_plain(at))
+        ++at;
+      else
+        return;
+    }
+  }
+
+  void judge_early(std::uint32_t at) {
+    const auto condition = program_.as<IfView>(statement_of(at));
+    const auto test = sensor_test(program_, condition.first);
+    const auto jumps = flow_.jumps_of(flow_.code[at]);
+    if (!test || test->sensor != Variable::Speed || condition.second || jumps.size() != 1)
+      return;
+    // A loop that is left at once: from its end, or from within. Where it goes on, it waits.
+    const bool back = jumps.front().to <= at;
+    if (Bound{test->relation, test->number}.holds(0) == back ||
+        (!back && jumps.front().to <= end_of_loop(at)))
+      return;
+    findings_.add(rules::EarlySensor, span_of(condition.first), texts::TestedAtRest(),
+                  texts::WaitBeforeIt("delay 500"));
+  }
+
+  /// The last line that leads back to a line or to one above it; 0 where none does.
+  std::uint32_t end_of_loop(std::uint32_t at) const {
+    std::uint32_t end = 0;
+    for (const auto& jump : flow_.jumps)
+      if (!jump.call && jump.to <= at && at <= jump.from)
+        end = std::max(end, jump.from);
+    return end;
+  }
+
+  // ---- rolls while nothing is stabilized
+
+  void check_roll_below(std::uint32_t raw) {
+    for (auto at = raw + 1; at < size_ && at - raw < longest_loop && is_plain(at); ++at) {
+      const auto& statement = statement_of(at);
+      if (flow_.code[at].target || statement.kind == Statement::Raw ||
+          statement.kind == Statement::Macrun || sets(statement, Variable::Ctrl))
+        return;
+      if (statement.kind != Statement::Goroll)
+        continue;
+      const auto items = program_.items_of(statement);
+      if (items.size() < 3 || number(items[1]).value_or(0) <= 0 || number(items[2]) != 1)
+        return;
+      auto& d = findings_.add(rules::NeverRolls, statement.span, texts::NotStabilized(),
+                              texts::AddAboveThisLine("ctrl = 1"));
+      add_note(d, statement_of(raw).span, texts::TurnedOffHere());
+      return;
+    }
+  }
+
+  bool sets(const StatementNode& statement, Variable variable) const {
+    return statement.kind == Statement::Let &&
+           program_.as<LetView>(statement).variable.kind == ItemKind::System &&
+           program_.as<LetView>(statement).variable.value == static_cast<std::uint32_t>(variable);
+  }
+
+  // ---- loops that count
+
+  /// `for I = 0 to 4` around a turn by 90: four turns are a circle.
+  void check_turns(std::uint32_t begin) {
+    const auto loop = program_.as<ForView>(statement_of(begin));
+    const auto last = number(loop.end);
+    if (loop.variable.kind != ItemKind::Letter || number(loop.start) != 0 || !last || *last < 2 ||
+        loop.step != nullptr)
+      return;
+    std::optional<std::int32_t> turn;
+    for (auto i = begin + 1; i < size_ && i - begin < longest_loop; ++i) {
+      const auto& statement = statement_of(i);
+      if (statement.kind == Statement::Next && !statement.error)
+        break;
+      if (!is_plain(i) || flow_.code[i].loops)
+        return;
+      const auto found = turn_in(statement, loop.variable.value);
+      if (turn && found)
+        return;
+      turn = turn ? turn : found;
+    }
+    if (!turn || *turn * *last != full_turn)
+      return;
+    findings_.add(
+        rules::ExtraTurn, Span{loop.variable.span.begin, loop.end.span.end},
+        texts::TurnsOnceMore(*last + 1, *last, *turn),
+        texts::Write(fmt::format("for {} = 1 to {}", program_.text_of(loop.variable.span), *last)));
+  }
+
+  /// The first `next` below a line; 0 where there is none.
+  std::uint32_t next_below(std::uint32_t line) const {
+    for (auto i = line + 1; i < size_ && i - line < longest_loop; ++i)
+      if (!statement_of(i).error && statement_of(i).kind == Statement::Next)
+        return i;
+    return 0;
+  }
+
+  /// By how much a line turns in each round: `H = (H + 90) % 360`, or `goroll I * 90 % 360,…`.
+  std::optional<std::int32_t> turn_in(const StatementNode& statement, std::uint32_t counter) const {
+    if (statement.kind != Statement::Let && statement.kind != Statement::Goroll)
+      return std::nullopt;
+    const auto items = program_.items_of(statement);
+    const auto& sum = statement.kind == Statement::Let ? items[1] : items[0];
+    const auto op =
+        statement.kind == Statement::Let ? spec::Operator::Add : spec::Operator::Multiply;
+    const auto letter = statement.kind == Statement::Let ? items[0].value : counter;
+    if (items[0].kind != ItemKind::Letter && statement.kind == Statement::Let)
+      return std::nullopt;
+    const bool wraps =
+        program_.nodes[sum.value].kind == NodeKind::Binary &&
+        static_cast<spec::Operator>(program_.nodes[sum.value].what) == spec::Operator::Remainder;
+    if (!wraps)
+      return std::nullopt; // it leaves the range, and that is said
+    for (const auto& node : nodes_of(program_, sum)) {
+      if (node.kind != NodeKind::Binary || static_cast<spec::Operator>(node.what) != op)
+        continue;
+      const auto& left = program_.nodes[node.first];
+      const auto& right = *(&node - 1);
+      if (left.kind == NodeKind::Letter && left.what == letter && right.kind == NodeKind::Number &&
+          &left + 1 == &right)
+        return right.value;
+    }
+    return std::nullopt;
+  }
+
+  // ---- loops that wait
+
+  struct Setting {
+    std::uint32_t code = none;
+    const Item* value = nullptr; ///< null where it is no number
+  };
+
+  void read_settings() {
+    for (const auto kind : {Statement::Let, Statement::For, Statement::Read, Statement::Input})
+      for (const auto& place : flow_.all(kind)) {
+        const auto& statement = program_.statements[place.statement];
+        for (const auto& item : program_.items_of(statement))
+          if (item.kind == ItemKind::Letter)
+            settings_[item.value].push_back(
+                {place.code,
+                 kind == Statement::Let ? &program_.as<LetView>(statement).expression : nullptr});
+      }
+  }
+
+  void check_back(const Flow::Jump& jump) {
+    const auto& statement = statement_of(jump.from);
+    if (jump.to < jump.from)
+      check_data(jump.to, jump.from);
+    if (statement.error || statement.kind != Statement::If || statement.else_branch != none)
+      return;
+    const auto condition = program_.as<IfView>(statement);
+    if (condition.second)
+      return;
+    for (auto i = jump.to; i < jump.from; ++i)
+      if (!is_plain(i))
+        return;
+    check_once(condition.first, jump);
+    check_timer(condition.first, jump);
+  }
+
+  /// A loop that sets what it asks to one value, at which it ends.
+  void check_once(const Comparison& test, const Flow::Jump& jump) {
+    const auto letter = letter_in(program_, test.left);
+    const auto limit = number(test.right);
+    if (!letter || !limit || jump.to == jump.from)
+      return;
+    const Setting* only = nullptr;
+    for (const auto& setting : settings_[*letter])
+      if (jump.to <= setting.code && setting.code < jump.from) {
+        if (only != nullptr)
+          return;
+        only = &setting;
+      }
+    const auto value =
+        only != nullptr && only->value != nullptr ? number(*only->value) : std::nullopt;
+    if (!value || Bound{static_cast<Relation>(test.relation.value), *limit}.holds(*value))
+      return;
+    const auto name = program_.text_of(test.left.span);
+    auto& d = findings_.add(rules::LoopRunsOnce, statement_of(only->code).span,
+                            texts::EndsAfterOne(name, *value));
+    if (*value < 0)
+      d.help = texts::Write(program_.letters > spec::letter_count
+                                ? fmt::format("{} -= {}", name, -std::int64_t{*value})
+                                : fmt::format("{0} = {0} - {1}", name, -std::int64_t{*value}));
+  }
+
+  /// A timer that counts down below what a loop waits for, and stays there.
+  void check_timer(const Comparison& comparison, const Flow::Jump& jump) {
+    const auto test = sensor_test(program_, comparison);
+    if (!test || !is_timer(test->sensor) || jump.to == 0)
+      return;
+    for (auto i = jump.to; i < jump.from; ++i)
+      if (sets(statement_of(i), test->sensor))
+        return;
+    constexpr std::uint32_t far = 8;
+    for (auto i = jump.to; i-- > 0 && jump.to - i < far;) {
+      if (!is_plain(i) || (flow_.code[i].target && i + 1 < jump.to))
+        return;
+      if (!sets(statement_of(i), test->sensor))
+        continue;
+      const auto from = number(program_.as<LetView>(statement_of(i)).expression);
+      const Bound bound{test->relation, test->number};
+      // It is at its number for an instant only.
+      if (!from || *from <= 0 || !bound.holds(0) || !bound.holds(*from - 1))
+        return;
+      const auto& row = spec::info(test->sensor);
+      if (bound.relation == Relation::Equal || bound.relation == Relation::Greater)
+        return;
+      findings_.add(rules::EndlessLoop, span_of(comparison),
+                    texts::TimerCountsDown(row.word, *from), texts::WaitForZero());
+      return;
+    }
+  }
+
+  /// Values that each round begins to read anew.
+  void check_data(std::uint32_t first, std::uint32_t last) {
+    const StatementNode* data = nullptr;
+    std::size_t reads = 0;
+    for (auto i = first; i <= last; ++i) {
+      const auto& statement = statement_of(i);
+      if (statement.error || flow_.code[i].loops || (flow_.code[i].target && i > first))
+        return;
+      if (statement.kind == Statement::Data && std::exchange(data, &statement) != nullptr)
+        return;
+      if (statement.kind == Statement::Read)
+        reads += program_.items_of(statement).size();
+    }
+    judge_data(data, reads);
+  }
+
+  void judge_data(const StatementNode* data, std::size_t reads) {
+    if (data == nullptr || reads == 0 || reads >= program_.items_of(*data).size())
+      return;
+    findings_.add(rules::DataReplaced, data->span, texts::DataStartsAnew(),
+                  texts::WriteAboveLoop(program_.text_of(data->span)));
+  }
+
+  // ---- places to which no roll leads
+
+  /// What xpos and ypos can become.
+  struct Reach {
+    bool below = false; ///< 0
+    bool above = false;
+  };
+
+  /// Where the rolls of a program lead, from the start; nothing where somebody else moves the ball.
+  std::optional<std::array<Reach, 2>> find_reach() const {
+    std::array<Reach, 2> reach;
+    if (flow_.all(Statement::Goroll).empty() || !flow_.all(Statement::Raw).empty() ||
+        !flow_.all(Statement::Macrun).empty() || !flow_.all(Statement::Heading).empty() ||
+        flow_.places.size() != program_.statements.size())
+      return std::nullopt;
+    for (const auto& place : flow_.all(Statement::Locate))
+      for (const auto& item : program_.items_of(program_.statements[place.statement]))
+        if (number(item) != 0)
+          return std::nullopt;
+    for (const auto& place : flow_.all(Statement::Goroll)) {
+      const auto items = program_.items_of(program_.statements[place.statement]);
+      const auto heading = number(items[0]);
+      if (number(items[1]) == 0)
+        continue;
+      constexpr std::int32_t quarter = full_turn / 4;
+      if (!heading || *heading < 0 || *heading % quarter != 0 || *heading >= full_turn)
+        return std::nullopt;
+      auto& axis = reach[*heading % (2 * quarter) == 0 ? 1 : 0];
+      (*heading < 2 * quarter ? axis.above : axis.below) = true;
+    }
+    return reach;
+  }
+
+  void check_places() {
+    const auto reach = find_reach();
+    if (!reach)
+      return;
+    for (const auto& place : flow_.all(Statement::If)) {
+      const auto condition = program_.as<IfView>(program_.statements[place.statement]);
+      check_place(condition.first, *reach);
+      if (condition.second)
+        check_place(*condition.second, *reach);
+    }
+  }
+
+  void check_place(const Comparison& comparison, const std::array<Reach, 2>& reach) {
+    const auto test = sensor_test(program_, comparison);
+    if (!test || (test->sensor != Variable::Xpos && test->sensor != Variable::Ypos))
+      return;
+    constexpr std::int32_t margin = 5;  // cm that it may sway
+    constexpr std::int32_t far = 30000; // cm: anywhere
+    const auto axis = test->sensor == Variable::Xpos ? 0U : 1U;
+    const Bound bound{test->relation, test->number};
+    // Only a place on the side to which nothing leads.
+    if ((test->number >= 0 && (reach[axis].above || test->number < 2 * margin)) ||
+        (test->number < 0 && (reach[axis].below || test->number > -2 * margin)))
+      return;
+    const bool answer = bound.holds(0);
+    const auto least = reach[axis].below ? -far : -margin;
+    const auto greatest = reach[axis].above ? far : margin;
+    for (const auto value : {least, greatest, test->number < 0 ? greatest : least})
+      if (bound.holds(value) != answer)
+        return;
+    std::string text(program_.text_of(span_of(comparison)));
+    auto& d = findings_.add(rules::ConstantComparison, span_of(comparison),
+                            texts::NoRollLeadsThere(text));
+    const auto other = 1 - axis;
+    const auto at = text.find(spec::info(test->sensor).word);
+    if (at != std::string::npos && (test->number >= 0 ? reach[other].above : reach[other].below))
+      d.help = texts::Write(text.replace(
+          at, spec::info(test->sensor).word.size(),
+          spec::info(test->sensor == Variable::Xpos ? Variable::Ypos : Variable::Xpos).word));
+  }
+
+  // ---- the least and the greatest of something
+
+  /// `if speed < L then L = speed`, where L begins at 0.
+  void check_extremes() {
+    for (const auto& place : flow_.all(Statement::If)) {
+      const auto condition = program_.as<IfView>(program_.statements[place.statement]);
+      if (condition.second)
+        continue;
+      const auto& [left, relation, right] = condition.first;
+      check_extreme(condition.first, left, right, static_cast<Relation>(relation.value));
+      check_extreme(condition.first, right, left, mirrored(static_cast<Relation>(relation.value)));
+    }
+  }
+
+  /// A letter and a number added to it.
+  struct Shifted {
+    std::uint32_t letter = none;
+    std::int32_t by = 0;
+  };
+  Shifted shifted(const Item& item) const {
+    if (const auto letter = letter_in(program_, item))
+      return {*letter, 0};
+    const auto nodes = nodes_of(program_, item);
+    if (nodes.size() != 3 || nodes[0].kind != NodeKind::Letter ||
+        nodes[1].kind != NodeKind::Number || nodes[2].kind != NodeKind::Binary)
+      return {};
+    const auto op = static_cast<spec::Operator>(nodes[2].what);
+    return op == spec::Operator::Add        ? Shifted{nodes[0].what, nodes[1].value}
+           : op == spec::Operator::Subtract ? Shifted{nodes[0].what, -nodes[1].value}
+                                            : Shifted{};
+  }
+
+  /// The sensor that is read there, or that its letter always has the value of.
+  std::optional<Variable> sensor_behind(const Item& item) const {
+    if (const auto sensor = sensor_in(program_, item))
+      return sensor;
+    const auto letter = letter_in(program_, item);
+    if (!letter || settings_[*letter].size() != 1 || settings_[*letter][0].value == nullptr)
+      return std::nullopt;
+    return sensor_in(program_, *settings_[*letter][0].value);
+  }
+
+  void check_extreme(const Comparison& comparison, const Item& asked, const Item& kept,
+                     Relation relation) {
+    const auto sensor = sensor_behind(asked);
+    const auto [letter, by] = shifted(kept);
+    if (!sensor || letter == none || is_timer(*sensor))
+      return;
+    const auto& row = spec::info(*sensor);
+    std::optional<std::int32_t> begin;
+    bool keeps = false;
+    for (const auto& setting : settings_[letter]) {
+      if (setting.value == nullptr)
+        return;
+      const auto value = number(*setting.value);
+      if (!value && sensor_behind(*setting.value) != sensor)
+        return;
+      keeps = keeps || !value;
+      begin = value ? value : begin;
+      if (value && value != begin)
+        return;
+    }
+    const auto start = begin.value_or(0);
+    const Bound bound{relation, std::int64_t{start} + by};
+    if (!keeps || bound.holds(row.least) != bound.holds(row.greatest) ||
+        bound.holds(row.least) != bound.holds(start) ||
+        (start != row.least && start != row.greatest))
+      return;
+    const Item& name = letter_in(program_, asked) == letter ? asked : kept;
+    const bool least = start == row.least;
+    const auto text = program_.text_of(name.span);
+    findings_.add(rules::ConstantComparison, span_of(comparison),
+                  (least ? texts::NeverLess : texts::NeverMore)(row.word, text, start),
+                  texts::BeginWith(fmt::format("{} = {}", text, least ? row.greatest : row.least)));
+  }
+
+  const Program& program_;
+  const Flow& flow_;
+  Findings& findings_;
+  std::uint32_t size_;
+  std::array<std::vector<Setting>, most_letters> settings_; ///< of each letter
+};
+
+} // namespace
+
+void lint_meant(const Program& program, const Flow& flow, Findings& findings) {
+  MeantPass(program, flow, findings).run();
+}
+
+} // namespace orb::compiler
