@@ -159,7 +159,7 @@ void Lines::repeat_line(Input& in, std::string_view word) {
 
 void Lines::local_line(Input& in, std::string_view word) {
   simple<g::locals>(in, Kind::Local, word);
-  while (!in.empty() && *in.current() == '=') {
+  while (!in.empty() && *in.current() == '=' && program_.items.back().kind == ItemKind::Name) {
     const auto name = program_.items.back();
     auto& statement = builder_.begin(Kind::Assign, {name.span.begin, name.span.begin});
     statement.word = {};
