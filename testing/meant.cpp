@@ -62,15 +62,20 @@ std::optional<std::vector<Printed>> printed_lines(const basic::Program& program)
   return lines;
 }
 
+/// By how many pieces and characters are left: from where the rest has been looked for.
+using DeadEnds = std::set<std::pair<std::size_t, std::size_t>>;
+
 /// The way that a printed line can be `text`, as it is then printed: its letters are compared by
 /// `equal`. Nothing where it cannot.
 template <typename Equal>
 std::optional<std::string> as_printed(std::span<const Piece> line, std::string_view text,
-                                      const Equal& equal) {
+                                      const Equal& equal, DeadEnds& dead) {
   if (line.empty())
     return text.empty() ? std::optional(std::string()) : std::nullopt;
+  if (!dead.insert({line.size(), text.size()}).second)
+    return std::nullopt; // where this way led before
   const auto with = [&](std::string_view printed, std::size_t taken) {
-    auto rest = as_printed(line.subspan(1), text.substr(taken), equal);
+    auto rest = as_printed(line.subspan(1), text.substr(taken), equal, dead);
     if (rest)
       rest->insert(0, printed);
     return rest;
@@ -107,7 +112,8 @@ Printed trimmed(Printed line) {
 /// nothing is like it.
 std::optional<std::string> printed_like(std::string_view text, const std::vector<Printed>& lines) {
   const auto is_printed = [&](const Printed& line) {
-    return as_printed(std::span(line), text, std::equal_to<>()).has_value();
+    DeadEnds dead;
+    return as_printed(std::span(line), text, std::equal_to<>(), dead).has_value();
   };
   if (std::any_of(lines.begin(), lines.end(), is_printed))
     return std::nullopt;
@@ -115,7 +121,8 @@ std::optional<std::string> printed_like(std::string_view text, const std::vector
     if (std::any_of(line.begin(), line.end(), is_character))
       continue;
     const auto bare = trimmed(line);
-    auto found = as_printed(std::span(bare), trim(text), equal_words);
+    DeadEnds dead;
+    auto found = as_printed(std::span(bare), trim(text), equal_words, dead);
     if (!found || found->empty())
       continue;
     const auto blanks = [](const Piece& piece, std::size_t most) {

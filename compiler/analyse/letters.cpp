@@ -46,6 +46,7 @@ bool join_letter(Letters& into, const Letters& from, std::size_t letter) {
 
 bool join_into(Letters& into, const Letters& from, LetterSet letters) {
   bool changed = false;
+  into.narrowed |= from.narrowed & letters;
   for (; letters != 0; letters &= letters - 1)
     if (const auto letter = static_cast<std::size_t>(std::countr_zero(letters));
         !same(into, from, letter))
@@ -213,6 +214,8 @@ bool LetterFlow::call(std::uint32_t entry, std::uint32_t from, Letters& letters)
   for (std::size_t i = 0; i < program_.letters; ++i)
     if ((routine->written & bit(i)) != 0)
       letters.ranges[i] = routine->letters.ranges[i];
+  letters.narrowed =
+      (letters.narrowed & ~routine->written) | (routine->letters.narrowed & routine->written);
   letters.exact = (letters.exact & ~routine->written) | (routine->letters.exact & routine->written);
   letters.dense = (letters.dense & ~routine->written) | (routine->letters.dense & routine->written);
   return true;

@@ -28,8 +28,9 @@ inline LetterSet letters_of(const Program& program) {
 /// What is known of the letters at a place of a program.
 struct Letters {
   std::array<Range, most_letters> ranges{};
-  LetterSet exact = 0; ///< of these both ends of the range are values that they take
-  LetterSet dense = 0; ///< and of these all between, as of a sensor
+  LetterSet exact = 0;    ///< of these both ends of the range are values that they take
+  LetterSet dense = 0;    ///< and of these all between, as of a sensor
+  LetterSet narrowed = 0; ///< of these a test has left some, perhaps none that they ever have
 
   static Letters zero() {
     Letters letters;

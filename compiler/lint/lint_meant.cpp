@@ -22,6 +22,8 @@ using spec::Relation;
 using spec::Statement;
 using spec::Variable;
 
+constexpr std::int32_t quarter = full_turn / 4;
+
 /// Programs that run as they are written, which cannot be what was meant: loops that are over at
 /// once or never, tests that the ball's own way decides.
 class MeantPass {
@@ -47,7 +49,6 @@ public:
     for (const auto& jump : flow_.jumps)
       if (!jump.call && jump.to <= jump.from && jump.from - jump.to < longest_loop)
         check_back(jump);
-    check_places();
     check_extremes();
   }
 
@@ -121,6 +122,11 @@ private:
   // ---- rolls while nothing is stabilized
 
   void check_roll_below(std::uint32_t raw) {
+    const auto motors = program_.items_of(statement_of(raw));
+    constexpr std::int32_t ignored = 4; // the mode that leaves a motor to the stabilization
+    if (!number(motors[0]) || !number(motors[2]) ||
+        (number(motors[0]) == ignored && number(motors[2]) == ignored))
+      return;
     for (auto at = raw + 1; at < size_ && at - raw < longest_loop && is_plain(at); ++at) {
       const auto& statement = statement_of(at);
       if (flow_.code[at].target || statement.kind == Statement::Raw ||
@@ -154,18 +160,20 @@ private:
         loop.step != nullptr)
       return;
     std::optional<std::int32_t> turn;
+    bool rolls = false;
     for (auto i = begin + 1; i < size_ && i - begin < longest_loop; ++i) {
       const auto& statement = statement_of(i);
       if (statement.kind == Statement::Next && !statement.error)
         break;
       if (!is_plain(i) || flow_.code[i].loops)
         return;
+      rolls = rolls || statement.kind == Statement::Goroll;
       const auto found = turn_in(statement, loop.variable.value);
       if (turn && found)
         return;
       turn = turn ? turn : found;
     }
-    if (!turn || *turn * *last != full_turn)
+    if (!turn || !rolls || std::int64_t{*turn} * *last != full_turn)
       return;
     findings_.add(
         rules::ExtraTurn, Span{loop.variable.span.begin, loop.end.span.end},
@@ -192,9 +200,10 @@ private:
     const auto letter = statement.kind == Statement::Let ? items[0].value : counter;
     if (items[0].kind != ItemKind::Letter && statement.kind == Statement::Let)
       return std::nullopt;
-    const bool wraps =
-        program_.nodes[sum.value].kind == NodeKind::Binary &&
-        static_cast<spec::Operator>(program_.nodes[sum.value].what) == spec::Operator::Remainder;
+    const auto& root = program_.nodes[sum.value];
+    const bool wraps = root.kind == NodeKind::Binary &&
+                       static_cast<spec::Operator>(root.what) == spec::Operator::Remainder &&
+                       program_.nodes[sum.value - 1].value == full_turn;
     if (!wraps)
       return std::nullopt; // it leaves the range, and that is said
     for (const auto& node : nodes_of(program_, sum)) {
@@ -242,6 +251,7 @@ private:
         return;
     check_once(condition.first, jump);
     check_timer(condition.first, jump);
+    check_place(condition.first, jump);
   }
 
   /// A loop that sets what it asks to one value, at which it ends.
@@ -290,7 +300,7 @@ private:
       if (!from || *from <= 0 || !bound.holds(0) || !bound.holds(*from - 1))
         return;
       const auto& row = spec::info(test->sensor);
-      if (bound.relation == Relation::Equal || bound.relation == Relation::Greater)
+      if (bound.relation != Relation::Less)
         return;
       findings_.add(rules::EndlessLoop, span_of(comparison),
                     texts::TimerCountsDown(row.word, *from), texts::WaitForZero());
@@ -304,14 +314,20 @@ private:
     std::size_t reads = 0;
     for (auto i = first; i <= last; ++i) {
       const auto& statement = statement_of(i);
-      if (statement.error || flow_.code[i].loops || (flow_.code[i].target && i > first))
-        return;
+      if (statement.error || flow_.code[i].loops || (flow_.code[i].target && i > first) ||
+          (statement.then_branch != none && i < last) || has_call(i))
+        return; // who reads there, and when, is another question
       if (statement.kind == Statement::Data && std::exchange(data, &statement) != nullptr)
         return;
       if (statement.kind == Statement::Read)
         reads += program_.items_of(statement).size();
     }
     judge_data(data, reads);
+  }
+
+  bool has_call(std::uint32_t code) const {
+    const auto jumps = flow_.jumps_of(flow_.code[code]);
+    return std::any_of(jumps.begin(), jumps.end(), [](const auto& jump) { return jump.call; });
   }
 
   void judge_data(const StatementNode* data, std::size_t reads) {
@@ -323,73 +339,55 @@ private:
 
   // ---- places to which no roll leads
 
-  /// What xpos and ypos can become.
-  struct Reach {
-    bool below = false; ///< 0
-    bool above = false;
-  };
-
-  /// Where the rolls of a program lead, from the start; nothing where somebody else moves the ball.
-  std::optional<std::array<Reach, 2>> find_reach() const {
-    std::array<Reach, 2> reach;
-    if (flow_.all(Statement::Goroll).empty() || !flow_.all(Statement::Raw).empty() ||
-        !flow_.all(Statement::Macrun).empty() || !flow_.all(Statement::Heading).empty() ||
-        flow_.places.size() != program_.statements.size())
+  /// The one heading along which a program rolls, a multiple of 90; nothing where there are others,
+  /// or where somebody else moves the ball or names its place. Opposite ones curve between them.
+  std::optional<std::int32_t> only_heading() const {
+    if (!flow_.all(Statement::Raw).empty() || !flow_.all(Statement::Macrun).empty() ||
+        !flow_.all(Statement::Heading).empty() || flow_.places.size() != program_.statements.size())
       return std::nullopt;
     for (const auto& place : flow_.all(Statement::Locate))
       for (const auto& item : program_.items_of(program_.statements[place.statement]))
         if (number(item) != 0)
           return std::nullopt;
+    std::optional<std::int32_t> only;
     for (const auto& place : flow_.all(Statement::Goroll)) {
       const auto items = program_.items_of(program_.statements[place.statement]);
       const auto heading = number(items[0]);
       if (number(items[1]) == 0)
         continue;
-      constexpr std::int32_t quarter = full_turn / 4;
-      if (!heading || *heading < 0 || *heading % quarter != 0 || *heading >= full_turn)
+      if (!heading || *heading % quarter != 0 || (only && only != heading))
         return std::nullopt;
-      auto& axis = reach[*heading % (2 * quarter) == 0 ? 1 : 0];
-      (*heading < 2 * quarter ? axis.above : axis.below) = true;
+      only = heading;
     }
-    return reach;
+    return only;
   }
 
-  void check_places() {
-    const auto reach = find_reach();
-    if (!reach)
-      return;
-    for (const auto& place : flow_.all(Statement::If)) {
-      const auto condition = program_.as<IfView>(program_.statements[place.statement]);
-      check_place(condition.first, *reach);
-      if (condition.second)
-        check_place(*condition.second, *reach);
-    }
-  }
-
-  void check_place(const Comparison& comparison, const std::array<Reach, 2>& reach) {
+  /// A loop around nothing but waits that ends at a place to which the only roll above does not
+  /// lead.
+  void check_place(const Comparison& comparison, const Flow::Jump& jump) {
     const auto test = sensor_test(program_, comparison);
     if (!test || (test->sensor != Variable::Xpos && test->sensor != Variable::Ypos))
       return;
-    constexpr std::int32_t margin = 5;  // cm that it may sway
-    constexpr std::int32_t far = 30000; // cm: anywhere
-    const auto axis = test->sensor == Variable::Xpos ? 0U : 1U;
-    const Bound bound{test->relation, test->number};
-    // Only a place on the side to which nothing leads.
-    if ((test->number >= 0 && (reach[axis].above || test->number < 2 * margin)) ||
-        (test->number < 0 && (reach[axis].below || test->number > -2 * margin)))
+    const auto rolls = flow_.all(Statement::Goroll);
+    const auto heading = only_heading();
+    if (!heading || rolls.empty() || rolls.front().code >= jump.from)
       return;
-    const bool answer = bound.holds(0);
-    const auto least = reach[axis].below ? -far : -margin;
-    const auto greatest = reach[axis].above ? far : margin;
-    for (const auto value : {least, greatest, test->number < 0 ? greatest : least})
-      if (bound.holds(value) != answer)
+    constexpr std::int32_t sway = 40; // cm
+    constexpr std::int32_t far = 30000;
+    const bool along = (test->sensor == Variable::Ypos) == (*heading % (2 * quarter) == 0);
+    const bool up = *heading < 2 * quarter;
+    const Bound bound{test->relation, test->number};
+    // Where it can be: all along its heading, and a bit to the sides.
+    for (const auto value : {0, -sway, sway, along && up ? far : sway, along && !up ? -far : -sway})
+      if (!bound.holds(value))
         return;
     std::string text(program_.text_of(span_of(comparison)));
+    if (text.find_first_of("\r\n") != std::string::npos)
+      return;
     auto& d = findings_.add(rules::ConstantComparison, span_of(comparison),
                             texts::NoRollLeadsThere(text));
-    const auto other = 1 - axis;
     const auto at = text.find(spec::info(test->sensor).word);
-    if (at != std::string::npos && (test->number >= 0 ? reach[other].above : reach[other].below))
+    if (at != std::string::npos && !along && bound.holds(up ? far : -far) == false)
       d.help = texts::Write(text.replace(
           at, spec::info(test->sensor).word.size(),
           spec::info(test->sensor == Variable::Xpos ? Variable::Ypos : Variable::Xpos).word));
@@ -419,7 +417,7 @@ private:
       return {*letter, 0};
     const auto nodes = nodes_of(program_, item);
     if (nodes.size() != 3 || nodes[0].kind != NodeKind::Letter ||
-        nodes[1].kind != NodeKind::Number || nodes[2].kind != NodeKind::Binary)
+        nodes[1].kind != NodeKind::Number || nodes[1].overflow || nodes[2].kind != NodeKind::Binary)
       return {};
     const auto op = static_cast<spec::Operator>(nodes[2].what);
     return op == spec::Operator::Add        ? Shifted{nodes[0].what, nodes[1].value}
@@ -465,7 +463,7 @@ private:
       return;
     const Item& name = letter_in(program_, asked) == letter ? asked : kept;
     const bool least = start == row.least;
-    const auto text = program_.text_of(name.span);
+    const auto text = program_.text_of(nodes_of(program_, name).front().span);
     findings_.add(rules::ConstantComparison, span_of(comparison),
                   (least ? texts::NeverLess : texts::NeverMore)(row.word, text, start),
                   texts::BeginWith(fmt::format("{} = {}", text, least ? row.greatest : row.least)));

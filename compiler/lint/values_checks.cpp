@@ -5,12 +5,14 @@ namespace orb::compiler {
 
 void ValuesPass::check_lines() {
   bool falls = false;
+  bool runs = true; // as far as tests of known values tell
   forget_letters();
   for (std::uint32_t i = 0; i < flow_.code.size(); ++i) {
     const auto& code = flow_.code[i];
     const bool entered = code.target || !falls;
     if (entered)
       begin_block();
+    runs = runs || entered;
     if (followed_)
       take_up(i);
     else if (entered)
@@ -18,7 +20,11 @@ void ValuesPass::check_lines() {
     line_ = code.line;
     cleared_on_line_ = 0;
     const auto& statement = program_.statements[code.statement];
-    go(statement, i);
+    if (runs || statement.error)
+      runs = go(statement, i);
+    else
+      for (const auto& one : program_.whole(statement))
+        note_uses(one);
     falls = code.falls && !statement.error; // a line that does not parse may set anything
     const auto jumps = flow_.jumps_of(code);
     if (!jumps.empty() || statement.error)
@@ -119,7 +125,8 @@ std::optional<Range> ValuesPass::usual_values(const spec::VariableInfo& row) con
     const auto number = number_in(program_, let.expression);
     if (let.variable.kind == ItemKind::System && number &&
         static_cast<spec::Variable>(let.variable.value) == row.variable)
-      time = Range{0, std::max(*number, time ? time->hi : 0)};
+      if (std::exchange(time, Range{0, *number}).value_or(Range{0, *number}) != Range{0, *number})
+        return std::nullopt; // which of its numbers it counts from there nobody knows
   }
   return time;
 }
@@ -181,6 +188,10 @@ void ValuesPass::add_out_of_range(const Item& value, std::string_view word,
       findings_.add(rules::ValueOutOfRange, value.span,
                     texts::FoundValue(allowed_values(word, parameter), shown(range_of(value))));
   const auto nodes = nodes_of(program_, value);
+  if (std::any_of(nodes.begin(), nodes.end(), [&](const Node& node) {
+        return node.kind == NodeKind::Letter && (now_.narrowed & bit(node.what)) != 0;
+      }))
+    d.severity = Severity::Warning; // there may be no value that gets past the test
   const bool written = std::all_of(nodes.begin(), nodes.end(), [](const Node& node) {
     return node.kind == NodeKind::Number || node.kind == NodeKind::Negate;
   });

@@ -90,6 +90,18 @@ bool ValuesPass::is_exact_sum(const Node& node, std::uint32_t right) const {
   return false;
 }
 
+void ValuesPass::note_uses(const StatementNode& statement) {
+  if (statement.error)
+    return;
+  for (auto n = statement.nodes_begin; n < statement.nodes_end; ++n)
+    if (program_.nodes[n].kind == NodeKind::Letter)
+      note_use(program_.nodes[n]);
+    else
+      indexed_used_ = indexed_used_ || program_.nodes[n].kind == NodeKind::Indexed;
+  for (const auto& item : program_.items_of(statement))
+    indexed_used_ = indexed_used_ || item.kind == ItemKind::Indexed;
+}
+
 void ValuesPass::note_clearing(const Node& node, const spec::VariableInfo& row) {
   const auto slot = clearing_slots[node.what];
   if (((cleared_on_line_ | cleared_) & bit(slot)) != 0)

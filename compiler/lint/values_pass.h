@@ -272,6 +272,9 @@ private:
     first = first == nullptr ? &letter : first;
   }
 
+  /// Of a statement that cannot run: it still uses what it names.
+  void note_uses(const StatementNode& statement);
+
   void note_clearing(const Node& node, const spec::VariableInfo& row);
 
   void check_binary(const Node& node, std::uint32_t index);

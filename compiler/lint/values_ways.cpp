@@ -129,6 +129,7 @@ void ValuesPass::forget_letters() {
 void ValuesPass::set_letter(std::uint32_t index, Range range, LetterSet exact, LetterSet dense) {
   moved_ |= bit(index);
   now_.ranges[index] = range;
+  now_.narrowed &= ~bit(index);
   now_.exact = (now_.exact & ~bit(index)) | exact << index;
   now_.dense = (now_.dense & ~bit(index)) | (exact & dense) << index;
   if (index == index_letter)
@@ -258,8 +259,11 @@ bool ValuesPass::go_branch(const IfView& condition, Holds holds, const Statement
   const bool can_be = assume(condition, holds);
   if (branch == nullptr)
     return can_be;
-  if (!can_be && following_)
+  if (!can_be && !branch->error) {
+    if (!following_)
+      note_uses(*branch);
     return false;
+  }
   const bool falls = go(*branch, code);
   if (branch->error)
     return true;
@@ -296,6 +300,7 @@ void ValuesPass::narrow(const Item& side, const Range& from, const Range& to) {
   tested_ |= bit(*letter);
   const auto dense = now_.dense >> *letter & 1;
   set_letter(*letter, to, dense, dense);
+  now_.narrowed |= bit(*letter);
 }
 
 void ValuesPass::set(const LetView& let) {

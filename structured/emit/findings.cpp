@@ -165,7 +165,7 @@ private:
     found.help = {};
     found.fix.reset();
     found.span = statement.span;
-    found.message = found.rule == &robot::IndexRange ? texts::IndexOutOfBounds()
+    found.message = is_error(found) ? texts::IndexOutOfBounds()
                     : arrays.size() == 1
                         ? texts::IndexCanLeave(program_.name(arrays[0]->name), arrays[0]->value)
                         : texts::AnIndexCanLeave();
@@ -252,6 +252,11 @@ private:
     return subtracts ? lines_.nodes[sum->value - 1].value : 0;
   }
 
+  /// The greatest value that a message names last.
+  static std::int32_t limit_in(const Message& message) {
+    return static_cast<std::int32_t>(std::stol(message.fillers().back().words()));
+  }
+
   void tell_of_sum(Diagnostic& found, const Statement& statement) const {
     if (statement.kind != Kind::Assign)
       return;
@@ -260,9 +265,12 @@ private:
     auto sum = std::string(program_.text_of(items[1].span));
     if (statement.operation != Statement::none_operation)
       sum = fmt::format("{} {} {}", name,
-                        spec::info(static_cast<spec::Operator>(statement.operation)).symbol, sum);
+                        spec::info(static_cast<spec::Operator>(statement.operation)).symbol,
+                        sum.find(' ') == std::string::npos ? sum : fmt::format("({})", sum));
     // The remainder of a value below 0 is below 0, too.
-    const auto turn = spec::info(spec::Statement::Goroll).parameters()[0].greatest + 1;
+    const auto turn = found.rule == &robot::HeadingGrows
+                          ? spec::info(spec::Statement::Goroll).parameters()[0].greatest + 1
+                          : limit_in(found.message) + 1;
     if (const auto step = taken_away(found.span); step > 0)
       sum = fmt::format("{} + {}", name, turn - step % turn);
     found.span = statement.span;

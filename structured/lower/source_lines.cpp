@@ -19,8 +19,11 @@ public:
   }
 
   compiler::Program run() {
+    find_reached();
     for (std::size_t i = 0; i < code_.lines.size(); ++i)
-      if (goes_around_jump(i))
+      if (!reached_[i] && code_.lines[i].kind != LineKind::Label)
+        continue; // a test of numbers leads past it
+      else if (goes_around_jump(i))
         write_jump(code_.lines[i], code_.lines[i + 1].label), ++i;
       else if (!is_idle(i))
         write(code_.lines[i]);
@@ -33,8 +36,8 @@ public:
 private:
   static constexpr std::uint32_t unknown = compiler::most_letters - 1; ///< is set, and never read
 
-  /// Variables get letters in turn, the index the robot's own: first those that loops count in, then
-  /// those that have names. Of others that there are too many of nothing is known.
+  /// Variables get letters in turn, the index the robot's own: first those that loops count in,
+  /// then those that have names. Of others that there are too many of nothing is known.
   void find_letters() {
     out_.letters = compiler::most_letters;
     letter_of_.resize(code_.variables.size(), unknown);
@@ -53,6 +56,39 @@ private:
     next_letter_ += next_letter_ == compiler::index_letter ? 1 : 0;
     if (letter_of_[variable] == unknown && next_letter_ < unknown)
       letter_of_[variable] = next_letter_++;
+  }
+
+  /// Marks the lines that can run, where tests of numbers have but one answer.
+  void find_reached() {
+    std::vector<std::uint32_t> line_of(code_.labels, none);
+    for (std::uint32_t i = 0; i < code_.lines.size(); ++i)
+      if (code_.lines[i].kind == LineKind::Label)
+        line_of[code_.lines[i].label] = i;
+    reached_.assign(code_.lines.size(), false);
+    std::vector<std::uint32_t> open{0};
+    const auto go = [&](std::uint32_t label) {
+      if (label < line_of.size() && line_of[label] != none)
+        open.push_back(line_of[label]);
+    };
+    while (!open.empty()) {
+      auto i = open.back();
+      open.pop_back();
+      for (; i < code_.lines.size() && !reached_[i]; ++i) {
+        reached_[i] = true;
+        const auto& line = code_.lines[i];
+        const auto answer = line.kind == LineKind::If
+                                ? answer_of(code_.conditions[line.condition].first)
+                                : std::nullopt;
+        if (line.kind != LineKind::Label && line.kind != LineKind::For && answer != false)
+          go(line.label);
+        for (auto n = line.parts_begin; line.kind == LineKind::Switch && n < line.parts_end; ++n)
+          go(code_.cases[n].label);
+        if (answer == true || line.kind == LineKind::Goto || line.kind == LineKind::Return ||
+            line.kind == LineKind::Switch ||
+            (line.kind == LineKind::Do && spec::info(line.robot).after == spec::After::Ends))
+          break;
+      }
+    }
   }
 
   /// Whether a label stands at line `i`, or below it with other labels.
@@ -427,6 +463,7 @@ private:
   compiler::Program out_;
   std::vector<std::uint32_t> letter_of_; ///< of each variable
   std::uint32_t next_letter_ = 0;
+  std::vector<bool> reached_;            ///< of each line
   std::vector<std::uint32_t> number_of_; ///< of each label the line that it stands above
   Span here_;                            ///< the statement that is written
   Span word_;                            ///< its word
