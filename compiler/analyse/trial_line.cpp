@@ -32,7 +32,23 @@ void TrialLine::stop(const Rule& rule, Span span, Message message, Message help)
 
 std::uint32_t TrialLine::round() const {
   const auto runs = runs_[line_];
-  return now_.decision == none && now_.calls.empty() && runs > 1 ? runs : 0;
+  if (now_.decision != none || !now_.calls.empty() || runs < 2)
+    return 0;
+  const auto loop = only_loop();
+  return loop != none && runs_[loop] == runs ? runs : 0;
+}
+
+std::uint32_t TrialLine::only_loop() const {
+  if (now_.loops.size() > 1)
+    return none;
+  auto loop = now_.loops.empty() ? none : now_.loops.front().body;
+  for (const auto& jump : flow_.jumps)
+    if (!jump.call && jump.to <= line_ && line_ <= jump.from) {
+      if (loop != none && loop != jump.to)
+        return none;
+      loop = jump.to;
+    }
+  return loop;
 }
 
 void TrialLine::stop_at(Span span, Message allowed, const Range& range, Message help) {

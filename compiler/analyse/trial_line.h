@@ -15,13 +15,16 @@ namespace orb::compiler {
 class TrialLine {
 public:
   TrialLine(const Program& program, const Flow& flow)
-      : program_(program), known_(program.nodes.size()), runs_(flow.code.size()) {}
+      : program_(program), flow_(flow), known_(program.nodes.size()), runs_(flow.code.size()) {}
 
 protected:
   /// The program stops here.
   void stop(const Rule& rule, Span span, Message message, Message help = {});
-  /// In which round of a loop the line runs; 0 where that says nothing.
+  /// In which round of its loop the line runs; 0 outside of loops, in one within another, and where
+  /// the line does not run in each round.
   std::uint32_t round() const;
+  /// The first line of the only loop around the line; none where there is no such one.
+  std::uint32_t only_loop() const;
   void stop_at(Span span, Message allowed, const Range& range, Message help = {});
 
   // ---- values
@@ -45,6 +48,7 @@ protected:
   void input(const InputView& input);
 
   const Program& program_;
+  const Flow& flow_;
   std::vector<TrialValue> known_;   ///< by node
   std::vector<std::uint32_t> runs_; ///< by line of code, on the only way
   Moment now_;

@@ -24,7 +24,7 @@ enum class Decider : std::uint8_t {
 
 class TrialRun : private TrialLine {
 public:
-  TrialRun(const Program& program, const Flow& flow) : TrialLine(program, flow), flow_(flow) {}
+  TrialRun(const Program& program, const Flow& flow) : TrialLine(program, flow) {}
 
   Trial run() {
     ways_.push_back(beginning(program_));
@@ -505,7 +505,6 @@ private:
     return meeting;
   }
 
-  const Flow& flow_;
   std::deque<Moment> ways_;                  ///< that have still to be followed
   std::uint32_t lines_ = 0;                  ///< how many have run
   std::unordered_set<std::uint64_t> met_;    ///< hashes of moments to which somebody came back
