@@ -373,7 +373,7 @@ private:
     if (!heading || rolls.empty() || rolls.front().code >= jump.from)
       return;
     constexpr std::int32_t sway = 40; // cm
-    constexpr std::int32_t far = 30000;
+    constexpr std::int32_t far = 30000; // cm: anywhere
     const bool along = (test->sensor == Variable::Ypos) == (*heading % (2 * quarter) == 0);
     const bool up = *heading < 2 * quarter;
     const Bound bound{test->relation, test->number};
