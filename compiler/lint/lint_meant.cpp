@@ -410,7 +410,7 @@ private:
   /// A letter and a number added to it.
   struct Shifted {
     std::uint32_t letter = none;
-    std::int32_t by = 0;
+    std::int64_t by = 0;
   };
   Shifted shifted(const Item& item) const {
     if (const auto letter = letter_in(program_, item))
@@ -421,7 +421,7 @@ private:
       return {};
     const auto op = static_cast<spec::Operator>(nodes[2].what);
     return op == spec::Operator::Add        ? Shifted{nodes[0].what, nodes[1].value}
-           : op == spec::Operator::Subtract ? Shifted{nodes[0].what, -nodes[1].value}
+           : op == spec::Operator::Subtract ? Shifted{nodes[0].what, -std::int64_t{nodes[1].value}}
                                             : Shifted{};
   }
 
