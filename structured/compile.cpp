@@ -8,9 +8,9 @@
 #include "structured/emit/choices.h"
 #include "structured/emit/findings.h"
 #include "structured/emit/size.h"
+#include "structured/emit/source_lines.h"
 #include "structured/lower/lower.h"
 #include "structured/lower/plan.h"
-#include "structured/lower/source_lines.h"
 #include "structured/meaning/check.h"
 #include "structured/optimise/optimise.h"
 #include "structured/text/blocks.h"
@@ -223,8 +223,8 @@ void compile(Compiled& compiled, const compiler::Target& target,
   compiled.code = lower(compiled.program, compiled.names, decided);
   for (const auto& name : kept)
     keep(compiled, name);
-  const auto lines = compiled.code.too_large ? compiler::Program{}
-                                             : source_lines(compiled.program, compiled.code);
+  const auto lines =
+      compiled.code.too_large ? compiler::Program{} : source_lines(compiled.program, compiled.code);
   optimise(compiled.code, shape);
   if (compiled.code.too_large) {
     report_too_large(compiled, target);

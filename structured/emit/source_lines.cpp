@@ -1,6 +1,7 @@
-#include "structured/lower/source_lines.h"
+#include "structured/emit/source_lines.h"
 
 #include "bytecode/arithmetic.h"
+#include "structured/analyse/flow.h"
 
 #include <algorithm>
 #include <optional>
@@ -79,13 +80,9 @@ private:
         const auto answer = line.kind == LineKind::If
                                 ? answer_of(code_.conditions[line.condition].first)
                                 : std::nullopt;
-        if (line.kind != LineKind::Label && line.kind != LineKind::For && answer != false)
-          go(line.label);
-        for (auto n = line.parts_begin; line.kind == LineKind::Switch && n < line.parts_end; ++n)
-          go(code_.cases[n].label);
-        if (answer == true || line.kind == LineKind::Goto || line.kind == LineKind::Return ||
-            line.kind == LineKind::Switch ||
-            (line.kind == LineKind::Do && spec::info(line.robot).after == spec::After::Ends))
+        if (answer != false)
+          each_label(code_, line, go);
+        if (answer == true || !falls_through(line))
           break;
       }
     }
@@ -216,11 +213,13 @@ private:
     out_.statements[statement].items_end = size(out_.items);
     out_.statements[statement].nodes_end = size(out_.nodes);
   }
-  void branch_to(spec::Statement kind, std::uint32_t label) {
+  /// Begins a jump or a call.
+  std::uint32_t begin_jump(spec::Statement kind, std::uint32_t label) {
     const auto jump = begin(kind);
     target(label);
-    end(jump);
+    return jump;
   }
+  void go_to(std::uint32_t label) { end(begin_jump(spec::Statement::Goto, label)); }
 
   void begin_line() {
     auto& line = out_.lines.emplace_back();
@@ -276,16 +275,8 @@ private:
       expression(line.term);
       return let;
     }
-    case LineKind::Goto: {
-      const auto jump = begin(spec::Statement::Goto);
-      target(line.label);
-      return jump;
-    }
-    case LineKind::Gosub: {
-      const auto jump = begin(spec::Statement::Gosub);
-      target(line.label);
-      return jump;
-    }
+    case LineKind::Goto: return begin_jump(spec::Statement::Goto, line.label);
+    case LineKind::Gosub: return begin_jump(spec::Statement::Gosub, line.label);
     case LineKind::Return: return begin(spec::Statement::Return);
     case LineKind::For: return write_for(line);
     case LineKind::Next: {
@@ -358,7 +349,7 @@ private:
     if (const auto answer = answer_of(relation)) {
       if (*answer) {
         begin_line();
-        branch_to(spec::Statement::Goto, label);
+        go_to(label);
       }
       return;
     }
@@ -380,7 +371,7 @@ private:
 
   void add_branch(std::uint32_t test, std::uint32_t label) {
     out_.statements[test].then_branch = size(out_.statements);
-    branch_to(spec::Statement::Goto, label);
+    go_to(label);
   }
 
   /// What a comparison of two numbers says.
@@ -436,7 +427,7 @@ private:
     for (auto i = line.parts_begin; i < line.parts_end; ++i)
       write_case(line, code_.cases[i]);
     begin_line();
-    branch_to(spec::Statement::Goto, line.label);
+    go_to(line.label);
   }
 
   void write_case(const CodeLine& line, const Case& one) {
