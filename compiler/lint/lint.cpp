@@ -8,6 +8,7 @@
 #include "spec/limits.h"
 
 #include <algorithm>
+#include <fmt/format.h>
 #include <iterator>
 #include <map>
 
@@ -109,8 +110,9 @@ void lint_ways(const Program& program, const Flow& flow, Findings& findings) {
   lint_flow(program, flow, findings);
   lint_intent(program, flow, findings);
   lint_units(program, flow, findings);
-  lint_waits(program, flow, findings);
-  lint_meant(program, flow, findings);
+  const auto settings = read_settings(program, flow);
+  lint_waits(program, flow, settings, findings);
+  lint_meant(program, flow, settings, findings);
   lint_sums(program, flow, findings);
   lint_certain(program, flow, findings);
 }
@@ -119,6 +121,11 @@ void lint_ways(const Program& program, const Flow& flow, Findings& findings) {
 
 void add_note(Diagnostic& diagnostic, Span where, Message what) {
   diagnostic.notes.push_back({where, std::move(what)});
+}
+
+std::string stepped(const Program& program, std::string_view name, char sign, std::int64_t step) {
+  return program.letters > spec::letter_count ? fmt::format("{} {}= {}", name, sign, step)
+                                              : fmt::format("{0} = {0} {1} {2}", name, sign, step);
 }
 
 std::int32_t area_bytes(const Target& target) {

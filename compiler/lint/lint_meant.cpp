@@ -4,12 +4,10 @@
 #include "compiler/lint/sensor_tests.h"
 #include "compiler/lint/sums.h"
 #include "compiler/text/rules.h"
-#include "spec/limits.h"
+#include "spec/api.h"
 
 #include <algorithm>
-#include <array>
 #include <fmt/format.h>
-#include <limits>
 #include <optional>
 #include <string>
 #include <utility>
@@ -28,12 +26,11 @@ constexpr std::int32_t quarter = full_turn / 4;
 /// once or never, tests that the ball's own way decides.
 class MeantPass {
 public:
-  MeantPass(const Program& program, const Flow& flow, Findings& findings)
-      : program_(program), flow_(flow), findings_(findings),
+  MeantPass(const Program& program, const Flow& flow, const Settings& settings, Findings& findings)
+      : program_(program), flow_(flow), settings_(settings), findings_(findings),
         size_(static_cast<std::uint32_t>(flow.code.size())) {}
 
   void run() {
-    read_settings();
     for (const auto& place : flow_.all(Statement::Goroll))
       if (flow_.is_line(place))
         check_early_test(place.code);
@@ -123,7 +120,7 @@ private:
 
   void check_roll_below(std::uint32_t raw) {
     const auto motors = program_.items_of(statement_of(raw));
-    constexpr std::int32_t ignored = 4; // the mode that leaves a motor to the stabilization
+    constexpr std::int32_t ignored = spec::motor_mode::ignore;
     if (!number(motors[0]) || !number(motors[2]) ||
         (number(motors[0]) == ignored && number(motors[2]) == ignored))
       return;
@@ -220,23 +217,6 @@ private:
 
   // ---- loops that wait
 
-  struct Setting {
-    std::uint32_t code = none;
-    const Item* value = nullptr; ///< null where it is no number
-  };
-
-  void read_settings() {
-    for (const auto kind : {Statement::Let, Statement::For, Statement::Read, Statement::Input})
-      for (const auto& place : flow_.all(kind)) {
-        const auto& statement = program_.statements[place.statement];
-        for (const auto& item : program_.items_of(statement))
-          if (item.kind == ItemKind::Letter)
-            settings_[item.value].push_back(
-                {place.code,
-                 kind == Statement::Let ? &program_.as<LetView>(statement).expression : nullptr});
-      }
-  }
-
   void check_back(const Flow::Jump& jump) {
     const auto& statement = statement_of(jump.from);
     if (jump.to < jump.from)
@@ -275,9 +255,7 @@ private:
     auto& d = findings_.add(rules::LoopRunsOnce, statement_of(only->code).span,
                             texts::EndsAfterOne(name, *value));
     if (*value < 0)
-      d.help = texts::Write(program_.letters > spec::letter_count
-                                ? fmt::format("{} -= {}", name, -std::int64_t{*value})
-                                : fmt::format("{0} = {0} - {1}", name, -std::int64_t{*value}));
+      d.help = texts::Write(stepped(program_, name, '-', -std::int64_t{*value}));
   }
 
   /// A timer that counts down below what a loop waits for, and stays there.
@@ -295,13 +273,12 @@ private:
       if (!sets(statement_of(i), test->sensor))
         continue;
       const auto from = number(program_.as<LetView>(statement_of(i)).expression);
+      // Equal to its number it is for an instant only.
       const Bound bound{test->relation, test->number};
-      // It is at its number for an instant only.
-      if (!from || *from <= 0 || !bound.holds(0) || !bound.holds(*from - 1))
+      if (bound.relation != Relation::Less || !from || *from <= 0 || !bound.holds(0) ||
+          !bound.holds(*from - 1))
         return;
       const auto& row = spec::info(test->sensor);
-      if (bound.relation != Relation::Less)
-        return;
       findings_.add(rules::EndlessLoop, span_of(comparison),
                     texts::TimerCountsDown(row.word, *from), texts::WaitForZero());
       return;
@@ -373,7 +350,7 @@ private:
     if (!heading || rolls.empty() || rolls.front().code >= jump.from)
       return;
     constexpr std::int32_t sway = 40; // cm
-    constexpr std::int32_t far = 30000; // cm: anywhere
+    const auto far = spec::info(test->sensor).greatest;
     const bool along = (test->sensor == Variable::Ypos) == (*heading % (2 * quarter) == 0);
     const bool up = *heading < 2 * quarter;
     const Bound bound{test->relation, test->number};
@@ -471,15 +448,16 @@ private:
 
   const Program& program_;
   const Flow& flow_;
+  const Settings& settings_;
   Findings& findings_;
   std::uint32_t size_;
-  std::array<std::vector<Setting>, most_letters> settings_; ///< of each letter
 };
 
 } // namespace
 
-void lint_meant(const Program& program, const Flow& flow, Findings& findings) {
-  MeantPass(program, flow, findings).run();
+void lint_meant(const Program& program, const Flow& flow, const Settings& settings,
+                Findings& findings) {
+  MeantPass(program, flow, settings, findings).run();
 }
 
 } // namespace orb::compiler

@@ -3,6 +3,7 @@
 #include "base/diagnostic.h"
 #include "base/findings.h"
 #include "compiler/analyse/flow.h"
+#include "compiler/analyse/settings.h"
 #include "compiler/lint/lint.h"
 #include "compiler/text/program.h"
 #include "compiler/text/texts.h"
@@ -29,6 +30,9 @@ inline constexpr std::int32_t full_turn =
 inline Fix single_fix(Message title, Span span, std::string text, Safety safety = Safety::Safe) {
   return Fix{std::move(title), {Edit{span, std::move(text)}}, safety};
 }
+
+/// The line that adds to a variable, or takes away: `N = N + 1`, `n += 1` where it has a name.
+std::string stepped(const Program& program, std::string_view name, char sign, std::int64_t step);
 
 // The passes, in the order in which they run. Each goes once through the program and knows nothing
 // of the others.
@@ -65,11 +69,13 @@ void lint_intent(const Program& program, const Flow& flow, Findings& findings);
 void lint_units(const Program& program, const Flow& flow, Findings& findings);
 
 /// Loops that wait for what cannot come, and loops that are meant as a wait.
-void lint_waits(const Program& program, const Flow& flow, Findings& findings);
+void lint_waits(const Program& program, const Flow& flow, const Settings& settings,
+                Findings& findings);
 
 /// Programs that run as they are written, which cannot be what was meant: loops that are over at
 /// once or never, tests that the ball's own way decides.
-void lint_meant(const Program& program, const Flow& flow, Findings& findings);
+void lint_meant(const Program& program, const Flow& flow, const Settings& settings,
+                Findings& findings);
 
 /// What is computed and lost on the way: values exchanged, sums, products, shares.
 void lint_sums(const Program& program, const Flow& flow, Findings& findings);

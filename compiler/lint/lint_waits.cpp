@@ -5,7 +5,6 @@
 #include "spec/limits.h"
 
 #include <algorithm>
-#include <array>
 #include <fmt/format.h>
 
 namespace orb::compiler {
@@ -17,12 +16,11 @@ using spec::Statement;
 /// Loops that wait for what cannot come, and loops that are meant as a wait.
 class WaitsPass {
 public:
-  WaitsPass(const Program& program, const Flow& flow, Findings& findings)
-      : program_(program), flow_(flow), findings_(findings),
+  WaitsPass(const Program& program, const Flow& flow, const Settings& settings, Findings& findings)
+      : program_(program), flow_(flow), settings_(settings), findings_(findings),
         size_(static_cast<std::uint32_t>(flow.code.size())) {}
 
   void run() {
-    read_settings();
     for (const auto& place : flow_.all(Statement::For))
       if (flow_.is_line(place))
         check_loop(program_.statements[place.statement], place.code);
@@ -185,21 +183,6 @@ private:
 
   // ---- loops that wait
 
-  struct Setting {
-    std::uint32_t count = 0;
-    std::uint32_t code = none; ///< the last that sets the letter
-  };
-
-  void read_settings() {
-    for (const auto kind : {Statement::Let, Statement::For, Statement::Read, Statement::Input})
-      for (const auto& place : flow_.all(kind))
-        for (const auto& item : program_.items_of(program_.statements[place.statement]))
-          if (item.kind == ItemKind::Letter) {
-            auto& setting = settings_[item.value];
-            setting.code = ++setting.count == 1 ? place.code : std::max(setting.code, place.code);
-          }
-  }
-
   void check_back(const StatementNode& statement, const Flow::Jump& jump, std::uint32_t code) {
     if (jump.to == code && statement.kind == Statement::If && statement.else_branch == none)
       check_inverted(statement, code);
@@ -217,11 +200,11 @@ private:
     const auto letter = letter_in(program_, condition.first.left);
     const auto limit = number(condition.first.right);
     if (begin.error || begin.kind != Statement::Let || statement.else_branch != none ||
-        condition.second || !letter || !limit || settings_[*letter].count != 2)
+        condition.second || !letter || !limit || settings_[*letter].size() != 2)
       return;
     const auto let = program_.as<LetView>(begin);
     const auto first = number(let.expression);
-    const auto set = settings_[*letter].code; // the other line that sets it, below
+    const auto set = std::max(settings_[*letter][0].code, settings_[*letter][1].code); // below
     if (let.variable.kind != ItemKind::Letter || let.variable.value != *letter || !first ||
         set <= jump.to || set >= code || !is_plain(set))
       return;
@@ -343,10 +326,12 @@ private:
     const auto letter = letter_in(program_, condition.first.left);
     if (condition.second || !letter || !number(condition.first.right))
       return;
-    const auto& setting = settings_[*letter];
-    if (setting.count != 1 || (first <= setting.code && setting.code <= last))
+    if (settings_[*letter].size() != 1)
       return;
-    const auto& copy = original_of(statement_of(setting.code));
+    const auto set = settings_[*letter].front().code;
+    if (first <= set && set <= last)
+      return;
+    const auto& copy = original_of(statement_of(set));
     const auto jumps = flow_.jumps_of(flow_.code[test_code]);
     if (copy.kind != Statement::Let || jumps.empty())
       return;
@@ -370,9 +355,9 @@ private:
     const auto* at = &copy;
     for (int i = 0; i < most && !at->error && at->kind == Statement::Let; ++i) {
       const auto letter = letter_in(program_, program_.as<LetView>(*at).expression);
-      if (!letter || settings_[*letter].count != 1)
+      if (!letter || settings_[*letter].size() != 1)
         break;
-      at = &statement_of(settings_[*letter].code);
+      at = &statement_of(settings_[*letter].front().code);
     }
     return *at;
   }
@@ -388,22 +373,21 @@ private:
     const bool down = back == (relation == Relation::Greater);
     findings_.add(rules::EndlessLoop, Span{condition.left.span.begin, condition.right.span.end},
                   texts::NothingChanges(name),
-                  texts::AddToLoop(program_.letters > spec::letter_count
-                                       ? fmt::format("{} {}= 1", name, down ? '-' : '+')
-                                       : fmt::format("{0} = {0} {1} 1", name, down ? '-' : '+')));
+                  texts::AddToLoop(stepped(program_, name, down ? '-' : '+', 1)));
   }
 
   const Program& program_;
   const Flow& flow_;
+  const Settings& settings_;
   Findings& findings_;
   std::uint32_t size_;
-  std::array<Setting, most_letters> settings_{};
 };
 
 } // namespace
 
-void lint_waits(const Program& program, const Flow& flow, Findings& findings) {
-  WaitsPass(program, flow, findings).run();
+void lint_waits(const Program& program, const Flow& flow, const Settings& settings,
+                Findings& findings) {
+  WaitsPass(program, flow, settings, findings).run();
 }
 
 } // namespace orb::compiler
