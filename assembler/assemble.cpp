@@ -1,8 +1,8 @@
 #include "assembler/assemble.h"
 
-#include "assembler/names.h"
+#include "assembler/constants.h"
 #include "assembler/operands.h"
-#include "assembler/text/parse.h"
+#include "assembler/text/parse_macro.h"
 #include "assembler/text/rules.h"
 #include "assembler/text/texts.h"
 #include "base/text/utf8.h"
@@ -19,7 +19,7 @@ using spec::MacroOperandKind;
 using Origin = PlacedCommand::Origin;
 using OperandValues = std::array<std::int32_t, spec::macro_max_operands>;
 
-/// Puts the commands of a program into its macros.
+/// Assembles the commands of a program into its macros.
 class Assembler {
 public:
   Assembler(const Source& source, Folding folding)
@@ -34,7 +34,7 @@ private:
 
   void begin_unnamed();
 
-  /// Room for what the rest of the file may hold.
+  /// Reserves memory for the rest of the file.
   void reserve();
 
   void add(const Statement& statement);
@@ -48,8 +48,8 @@ private:
   void place(const spec::MacroCommandInfo& info, Span span, Span operand, Origin origin,
              const OperandValues& value, std::string_view comment);
 
-  /// Takes a delay into the command before it. False where that has no delay of its own, or no
-  /// room.
+  /// Folds a delay into the command before it. Returns false if that command has no delay of its
+  /// own, or the sum does not fit.
   bool fold(std::int32_t time_ms);
 
   Folding folding_;
@@ -243,7 +243,7 @@ std::optional<Diagnostic> unreadable(const Source& source) {
     return finding(rules::EmptyFile, {0, 0}, texts::FileIsEmpty(), texts::WriteCommand());
   if (text.size() > largest_source)
     return finding(rules::SourceTooLarge, {0, 0}, texts::FileTooLarge(text.size(), largest_source));
-  // One pass without branches first: nearly every file is text.
+  // Scan once without branches: nearly every file is text.
   bool any = false;
   for (const char c : text)
     any |= is_binary_byte[static_cast<unsigned char>(c)];

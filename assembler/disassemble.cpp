@@ -83,7 +83,7 @@ std::string header_line(const protocol::MacroHeader& header) {
                      header.extended_flags ? fmt::format(" ext={}", *header.extended_flags) : "");
 }
 
-/// The same error, its offset counted from the beginning of the file.
+/// The same error, with the offset from the start of the file.
 std::string in_file(MacroError error, std::uint32_t header) {
   error.offset += header;
   return protocol::to_string(error);

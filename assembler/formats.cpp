@@ -33,7 +33,7 @@ std::string c_name(std::string_view name) {
   return out.empty() ? "macro" : out;
 }
 
-/// What the source says for a command.
+/// The source text of a command.
 std::string source_of(const Source& source, const PlacedCommand& command) {
   if (command.origin == PlacedCommand::Origin::Supplied)
     return "(end)";
@@ -71,7 +71,7 @@ std::string wait_text(const CommandTiming& timing) {
   return "< " + assembler::print_time(timing.most_ms);
 }
 
-/// A byte array for a C program, with its size: the framed macro.
+/// Prints the framed macro as a byte array for C.
 std::string print_c(std::string_view name, const AssembledMacro& macro) {
   const auto bytes = protocol::encode(macro.image());
   const auto id = c_name(name);
@@ -82,7 +82,7 @@ std::string print_c(std::string_view name, const AssembledMacro& macro) {
   return out + fmt::format("\n}};\nconst unsigned int {}_size = sizeof {};\n", id, id);
 }
 
-/// A macro as a document of schema `orb.macro/1`: bytes, commands with their operands, times.
+/// Prints a macro as JSON of schema `orb.macro/1`: bytes, commands with their operands, times.
 std::string print_json(std::string_view name, const Source& source, const Assembly& assembly,
                        std::size_t index) {
   const auto& macro = assembly.macros[index];
@@ -123,7 +123,7 @@ std::string print_json(std::string_view name, const Source& source, const Assemb
   return out.dump(2, ' ', false, json::error_handler_t::replace) + "\n";
 }
 
-/// Offset, command number, bytes, times and source, a line a command.
+/// Prints offset, command number, bytes, times and source, one command per line.
 std::string print_listing(std::string_view name, const Source& source, const Assembly& assembly,
                           std::size_t index) {
   const auto& macro = assembly.macros[index];

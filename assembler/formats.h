@@ -10,10 +10,10 @@
 
 namespace orb::assembler {
 
-/// How the bytes of a macro are written.
+/// An output format for the bytes of a macro.
 struct Format {
   std::string_view name;
-  std::string_view endings; ///< of files, each with its dot, blank between
+  std::string_view endings; ///< file extensions, each with its dot, space-separated
   bool is_binary = false;
 };
 
@@ -22,19 +22,19 @@ inline constexpr Format formats[] = {
     {"c", ".c .h .inc", false},  {"json", ".json", false},
 };
 
-/// The format of that name; without a name, that of files with this ending (`.hex`), else `sphero`.
+/// Finds a format by name; without a name, by the file extension (`.hex`), else `sphero`.
 const Format& format_of(std::string_view name, std::string_view ending);
 
-/// What is to be written of a file of macros.
+/// What to write of a file of macros.
 struct Wanted {
-  std::string unnamed;  ///< what a macro without a name is called
-  std::string macro;    ///< the name of the one that is wanted; empty for all
-  std::string format;   ///< its name; empty: by the ending of the file
-  std::string ending;   ///< of the file to write: `.hex`
-  bool listing = false; ///< instead of the bytes: offset, bytes, times and source, a line a command
+  std::string unnamed;  ///< the name for a macro without one
+  std::string macro;    ///< the name of the macro to write; empty: all
+  std::string format;   ///< its name; empty: by the file extension
+  std::string ending;   ///< extension of the file to write: `.hex`
+  bool listing = false; ///< print a listing instead of the bytes: offset, bytes, times and source
 };
 
-/// A macro, written.
+/// A macro in its output format.
 struct Written {
   std::string name;
   std::string file_name; ///< `wink.hex`
@@ -43,8 +43,8 @@ struct Written {
   std::string size; ///< `wink: 4 commands, 21 bytes (23 with id and flags), 1.2 s`
 };
 
-/// The macros of `assembly`, which has no errors, in its order. Fails where none has the wanted
-/// name: `dance.macro has no macro `x`; did you mean `y`?`.
+/// Writes the macros of `assembly`, which must have no errors, in order. Fails if none has the
+/// wanted name: `dance.macro has no macro `x`; did you mean `y`?`.
 tl::expected<std::vector<Written>, std::string>
 write(const Source& source, const Assembly& assembly, const Wanted& wanted);
 

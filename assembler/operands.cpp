@@ -16,8 +16,7 @@ using spec::MacroUnit;
 
 namespace {
 
-/// How many thousandths of the operand's own unit one of `unit` is; 0 where they do not go
-/// together.
+/// Thousandths of the operand's own unit in one `unit`; 0 if they measure different things.
 std::int64_t scale(const Unit* unit, MacroUnit own) {
   if (unit == nullptr)
     return whole;
@@ -34,7 +33,7 @@ std::int32_t least_of(const MacroOperand& operand) {
   return operand.unit == MacroUnit::Ticks10ms ? operand.minimum * tick_ms : operand.minimum;
 }
 
-/// `359 deg`
+/// The maximum of an operand, with its unit: `359 deg`.
 Message most_of(const MacroOperand& operand) {
   if (operand.unit == MacroUnit::Ticks10ms)
     return texts::InSteps(fmt::format("{} ms", operand.maximum * tick_ms), tick_ms);
@@ -49,7 +48,7 @@ Message words_of(const MacroOperand& operand) {
   return texts::ItIsOneOf(list);
 }
 
-/// An angle within one turn.
+/// Reduces an angle to one turn.
 std::int64_t same_way(std::int64_t angle_deg, std::int64_t turn_deg) {
   return (angle_deg % turn_deg + turn_deg) % turn_deg;
 }
@@ -63,7 +62,7 @@ std::string operand_list(const spec::MacroCommandInfo& info) {
   return list;
 }
 
-/// The lines that wait as long; empty for what would be a page of them.
+/// The lines that wait equally long; empty if they would be too many.
 Message waits_for(std::int64_t ms) {
   constexpr std::int64_t most_lines = 9;
   const auto& delay = spec::info(MacroCommand::Delay);
@@ -239,7 +238,7 @@ std::optional<std::int32_t> Operands::to_number(const Value& number, Span span,
     wrong_unit(number, span, operand, command);
     return std::nullopt;
   }
-  // Thousandths of a number times thousandths of the own unit: bounded far below 2^63.
+  // Thousandths of a number times thousandths of the own unit: far below 2^63.
   const auto millionths = number.thousandths * per;
   if (millionths % (whole * whole) != 0) {
     const auto unit = operand.unit == MacroUnit::None ? texts::Numbers()
@@ -269,8 +268,7 @@ void Operands::wrong_unit(const Value& number, Span span, const MacroOperand& op
             : texts::UnitsAre());
     return;
   }
-  findings_.add(rules::WrongUnit, span,
-                texts::OtherUnit(operand.name, command, number.unit->word),
+  findings_.add(rules::WrongUnit, span, texts::OtherUnit(operand.name, command, number.unit->word),
                 texts::MustBe(least_of(operand), most_of(operand)));
 }
 
@@ -295,8 +293,7 @@ void Operands::out_of_range(std::int64_t value, const Value& number, Span span,
   if (!is_exact || operand.word_count > 0 || operand.unit == MacroUnit::Milliseconds ||
       operand.kind == MacroOperandKind::MacroId || number.span != span ||
       (value < operand.minimum && operand.unit == MacroUnit::None && !brightness))
-    return; // nobody knows which word, which macro, what less than nothing is, or how to wait so
-            // long
+    return; // nothing to propose: the word, the macro or the wait that was meant is unknown
   const auto near = operand.unit == MacroUnit::Degrees && !operand.is_signed
                         ? same_way(value, operand.maximum + 1)
                         : std::clamp<std::int64_t>(value, operand.minimum, operand.maximum);

@@ -1,8 +1,8 @@
 #pragma once
 
-// Private to assembler/: what the operands of a command say, as numbers of the robot.
+// Private to assembler/: converts the operands of a command to numbers of the robot.
 
-#include "assembler/names.h"
+#include "assembler/constants.h"
 
 #include <array>
 #include <optional>
@@ -11,23 +11,24 @@
 
 namespace orb::assembler {
 
-/// A value as written for each operand of a command; null for one that is left out.
+/// The written value of each operand of a command; null if it is omitted.
 using Bound = std::array<const Value*, spec::macro_max_operands>;
 
-/// Reads operands. What is wrong with them goes to `findings`.
+/// Reads operands and reports errors to `findings`.
 class Operands {
 public:
   Operands(const Program& program, const Names& names, Findings& findings)
       : program_(program), names_(names), findings_(findings) {}
 
-  /// Which operand each value is for. Nothing, and a finding, where that does not work out.
+  /// Assigns values to operands; on failure returns nothing and reports a finding.
   std::optional<Bound> bind(const Statement& statement, const spec::MacroCommandInfo& info);
 
-  /// The value of an operand in the operand's own unit. Nothing, and a finding, where it has none.
+  /// The value of an operand in the operand's own unit; on failure returns nothing and reports a
+  /// finding.
   std::optional<std::int32_t> resolve(const Value& value, const spec::MacroOperand& operand,
                                       std::string_view command);
 
-  /// `roll`, or `roll2` for a delay that does not fit into a byte.
+  /// Returns `roll`, or `roll2` if the delay does not fit into a byte.
   const spec::MacroCommandInfo* roll_for(const Value& delay) const;
 
   /// The bytes of a quoted text.
@@ -41,7 +42,7 @@ private:
   std::optional<std::int32_t> macro_id(Span span, const Name& name,
                                        const spec::MacroOperand& operand);
 
-  /// The line that begins a macro of that name.
+  /// The `.macro` line for a macro of this name.
   std::string macro_line(Span name) const;
 
   std::optional<std::int32_t> unknown_name(Span span, const spec::MacroOperand& operand,
@@ -54,7 +55,7 @@ private:
   void wrong_unit(const Value& number, Span span, const spec::MacroOperand& operand,
                   std::string_view command);
 
-  /// `span` is where the number is used: it, or the name of a constant that holds it.
+  /// `span` is where the number is used: the number itself, or the name of its constant.
   void out_of_range(std::int64_t value, const Value& number, Span span,
                     const spec::MacroOperand& operand, std::string_view command);
 

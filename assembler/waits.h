@@ -1,6 +1,6 @@
 #pragma once
 
-// Private to assembler/: how long each command waits.
+// Private to assembler/: the wait of each command.
 
 #include "assembler/assemble.h"
 
@@ -8,7 +8,7 @@
 
 namespace orb::assembler {
 
-/// How long a command waits, given the system delays: earliest and latest.
+/// The shortest and longest wait of a command, given the system delays.
 struct Wait {
   std::int64_t least_ms = 0;
   std::int64_t most_ms = 0;

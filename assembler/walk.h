@@ -1,6 +1,7 @@
 #pragma once
 
-// Follows macros as the executive does, with a clock but without a ball. Private to assembler/.
+// Traces macros in the order of the executive, with a clock but without a ball. Private to
+// assembler/.
 
 #include "assembler/assemble.h"
 #include "assembler/waits.h"
@@ -16,7 +17,7 @@
 
 namespace orb::assembler {
 
-/// Where the walk is, and when. Waits of unknown length make an earliest and a latest time.
+/// The position and time of the walk. Waits of unknown length give an earliest and a latest time.
 struct Visit {
   std::size_t macro = 0;
   std::size_t command = 0;
@@ -30,8 +31,8 @@ struct Visit {
 /// Why a walk ended.
 enum class WalkEnd : std::uint8_t {
   Ended,   ///< at the last End
-  Endless, ///< it came back to a state in which it had been
-  Leaves,  ///< at a goto to a macro that is not in the file
+  Endless, ///< it returned to an earlier state
+  Leaves,  ///< at a goto to a macro outside the file
   Sleeps,
   Aborts, ///< at bytes that are not a command
   TooLong ///< after very many commands
@@ -42,14 +43,14 @@ struct WalkResult {
   std::int64_t earliest_ms = 0;
   std::int64_t latest_ms = 0;
   bool calls_unknown = false; ///< a gosub left the file: its time is missing
-  bool counts_by_api = false; ///< loop_start_system counted as once
+  bool counts_by_api = false; ///< counted loop_start_system once
 };
 
 inline constexpr std::size_t longest_walk = 500'000; ///< commands
 
 inline constexpr std::size_t nowhere = SIZE_MAX;
 
-/// Which macro has an id; nowhere where none has.
+/// Maps an id to its macro; nowhere if no macro has it.
 using MacrosById = std::array<std::size_t, spec::macro_id_temporary + 1>;
 
 inline MacrosById macros_by_id(const Assembly& assembly) {
@@ -60,7 +61,7 @@ inline MacrosById macros_by_id(const Assembly& assembly) {
   return found;
 }
 
-/// Follows one macro as the executive does. Private to walk().
+/// Traces one macro. Private to walk().
 template <class Visitor>
 class Walker {
 public:
@@ -95,7 +96,7 @@ private:
     friend auto operator<=>(const Loop&, const Loop&) = default;
   };
 
-  /// One command; how the walk ended where it did.
+  /// Executes one command; returns how the walk ended, if it did.
   std::optional<WalkEnd> step() {
     const auto& macro = assembly_.macros[now_.macro];
     const auto is_stream = macro.id == spec::macro_id_stream;
@@ -189,11 +190,11 @@ private:
   Visit now_;
   Place caller_;
   Loop loop_;
-  /// The states in which a macro was jumped to.
+  /// The states at each jump to a macro; a repeated one is an endless loop.
   std::set<std::tuple<std::size_t, std::int32_t, std::int32_t, Loop, Place>> jumps_;
 };
 
-/// Calls `visit(Visit)` for each command in the order in which they run, `most` of them.
+/// Calls `visit(Visit)` for each command in execution order, at most `most` times.
 template <class Visitor>
 WalkResult walk(const Assembly& assembly, std::size_t start, std::size_t most, Visitor visit) {
   return Walker(assembly, start, std::move(visit)).run(most);

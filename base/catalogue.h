@@ -9,18 +9,18 @@
 
 namespace orb {
 
-/// What messages say to people in one of their languages. The keys are the English texts, with
-/// their holes (base/texts.inc).
+/// Translations of messages into one language. The keys are the English texts with their holes
+/// (base/texts.inc).
 class Catalogue {
 public:
-  /// From JSON: objects with English keys and their translations. Nothing where it is not such.
+  /// Reads JSON: objects that map English keys to translations. Returns nothing if the JSON is
+  /// malformed.
   static std::optional<Catalogue> read(std::string_view json);
-  /// The pseudo-locale of such a file: each text in English, between `⟦` and `⟧`.
+  /// Builds the pseudo-locale of such a file: each text in English, between `⟦` and `⟧`.
   static std::optional<Catalogue> marked(std::string_view json);
 
-  /// The message in that language; in English where the catalogue does not have its text, or one
-  /// that is a part of it. Words as they are, such as the title of a test, are looked up as a
-  /// whole.
+  /// The message in this language, or in English if its text or any nested text is missing. Literal
+  /// words, such as the title of a test, are looked up whole.
   std::string say(const Message& message) const;
 
 private:

@@ -9,9 +9,10 @@
 
 namespace orb {
 
-/// Does a step that gives a tl::expected with a Failure. What it throws comes back as one: a bug of
-/// orb, exit 70, or a system without descriptors or threads, exit 3. So whoever drives a robot
-/// stops it before that is said. What is no std::exception passes.
+/// Runs a step that returns a tl::expected with a Failure, and turns an exception into a Failure:
+/// exit 70 for a bug in orb, exit 3 for a system out of descriptors or threads. This lets the
+/// caller stop a robot before it reports the error. Exceptions not derived from std::exception pass
+/// through.
 template <class Step>
 std::invoke_result_t<Step> contain(Step&& step) {
   try {

@@ -15,7 +15,7 @@ namespace {
 
 using Kind = Slot::Kind;
 
-// Farther, faster and more often than any ball; arithmetic on it stays exact.
+// Beyond any distance, speed or count of a ball; double arithmetic below it stays exact.
 constexpr double most_number = 1e9;
 
 bool ends_word(char c) {
@@ -39,7 +39,7 @@ Message missing(const Slot& slot) {
                                                       : texts::MissingValue(slot.name());
 }
 
-/// What is mostly written.
+/// The help line: the slot's usual form.
 Message example(const Slot& slot) {
   if (slot.kind == Kind::Place)
     return texts::PlaceIsWritten();
@@ -51,7 +51,7 @@ Message example(const Slot& slot) {
       fmt::format("{}{}{}", slot.before, slot.before.empty() ? "" : " ", slot.usual));
 }
 
-/// Whether a time has a number and a unit, and is only too much of it.
+/// True if the text is a well-formed time that is out of range.
 bool is_too_long(std::string_view text) {
   const auto amount = split_amount(text);
   return !amount.number.empty() && is_digit(text.front()) &&
@@ -140,7 +140,7 @@ bool Cursor::take_word(std::string_view wanted) {
 
 void Cursor::fail(const Rule& rule, Message message, Message help) {
   auto span = peek_span();
-  if (span.size() == 0) // at the end of the line: what stands last
+  if (span.size() == 0) // at the end of the line: the last token
     span = {begin_ + static_cast<std::uint32_t>(at_ == 0 ? 0 : at_ - 1),
             begin_ + static_cast<std::uint32_t>(at_)};
   fail_at(span, rule, std::move(message), std::move(help));
@@ -170,7 +170,7 @@ bool Cursor::begins(const Slot& slot) {
     return false;
   auto ahead = *this;
   ahead.word();
-  return slot.kind == Kind::Time || !parse_duration(ahead.word()); // `by 200ms` is of `after`
+  return slot.kind == Kind::Time || !parse_duration(ahead.word()); // `by 200ms` belongs to `after`
 }
 
 bool Cursor::take_before(const Slot& slot) {
@@ -229,7 +229,7 @@ void Cursor::read_value(const Slot& slot, SlotValue& value) {
   case Kind::Firmware:
   case Kind::Seeds: value.text = word(); return;
   case Kind::Colour: {
-    // A comment begins with `#`, too.
+    // A leading `#` is a colour, not a comment.
     const auto rest = text_.substr(at_);
     const auto end = std::min(rest.find_first_of(" \t#", 1), rest.size());
     value.text = rest.starts_with('#') && end > 1 ? rest.substr(0, end) : peek();
@@ -334,7 +334,7 @@ void Cursor::read_time(const Slot& slot, SlotValue& value) {
     return;
   const auto text = peek();
   const auto time = parse_duration(text);
-  constexpr double most_seconds = 100; // a larger number without a unit is milliseconds
+  constexpr double most_seconds = 100; // above this, a number without a unit is milliseconds
   if (time) {
     value.to = *time;
     at_ += text.size();
@@ -354,7 +354,7 @@ void Cursor::read_times(const Slot& slot, SlotValue& value) {
   const auto end = text.substr(std::min(dots + 2, text.size()));
   const auto to = parse_duration(end);
   auto from = parse_duration(text.substr(0, dots));
-  if (to && !from) // `2..3s`: the unit of the second
+  if (to && !from) // `2..3s`: the first number takes the second's unit
     from = parse_duration(fmt::format("{}{}", text.substr(0, dots), split_amount(end).rest));
   if (!from || !to)
     return wrong(slot, texts::TwoTimes());
@@ -375,7 +375,7 @@ void Cursor::read_axis(const Slot& slot, SlotValue& value) {
   at_ += has_sign ? 1 : 0;
   const auto number = has_sign ? digits() : std::nullopt;
   const auto farthest = slot.is_limited() ? static_cast<double>(slot.most) : most_number;
-  // Without a unit there are no blanks either.
+  // A number without a unit must end the word.
   if (!number || std::abs(*number) > farthest ||
       (slot.units.empty() && span_from(from).size() != all.size())) {
     go_back_to(from);

@@ -14,60 +14,61 @@
 
 namespace orb {
 
-/// What stands in a slot.
+/// The value of a slot.
 struct SlotValue {
-  Span span{};           ///< empty: nothing does
-  std::string text{};    ///< without quotes; of an axis `x` or `y`
-  std::size_t which = 0; ///< the word of a choice; the sign of an axis; of a time 1 for its word;
-                         ///< of a match 0 for the whole, 1 for a part, 2 for a pattern
-  double least = 0;      ///< of a range; of a place x
-  double most = 0;       ///< of a range; any other number; of a place y
-  Duration from{};       ///< of a time span
-  Duration to{};         ///< of a time span; any other time
+  Span span{};           ///< empty if the slot is absent
+  std::string text{};    ///< without quotes; for an axis, `x` or `y`
+  std::size_t which = 0; ///< choice: index of the word; axis: the sign; time: 1 if written as its
+                         ///< word; match: 0 whole text, 1 part, 2 pattern
+  double least = 0;      ///< range: lower end; place: x
+  double most = 0;       ///< range: upper end; place: y; otherwise the number
+  Duration from{};       ///< start of a time span
+  Duration to{};         ///< end of a time span, or a single time
 
   bool is_given() const { return span.size() > 0; }
   std::int64_t whole() const { return static_cast<std::int64_t>(most); }
 };
 
-/// Reads one line from left to right; `#` begins a comment. The first thing that is wrong is told;
-/// after that every function returns a value that does no harm and says nothing more.
+/// Reads one line from left to right; `#` begins a comment. Only the first error is reported: after
+/// it, every function returns a harmless value and adds no finding. Large because each kind of
+/// value has its own reader.
 class Cursor {
 public:
-  /// The rules are for what is missing or unexpected, and for values.
+  /// `syntax` reports missing or unexpected words, `value` reports bad values.
   Cursor(const Source& source, std::uint32_t line, std::vector<Diagnostic>& diagnostics,
          const Rule& syntax, const Rule& value);
-  /// Only looks: nothing is told.
+  /// Reads without reporting findings.
   Cursor(const Source& source, std::uint32_t line);
 
   bool failed() const { return failed_; }
-  /// Whether nothing is left but blanks and a comment.
+  /// True if only whitespace and a comment remain.
   bool at_end();
-  /// The text from `from` to here, without blanks at its ends.
+  /// The text from `from` to the current position, trimmed.
   Span span_from(std::uint32_t from) const;
   std::uint32_t offset();
-  /// What stands here up to the next blank, without taking it.
+  /// The next word, up to whitespace, without consuming it.
   std::string_view peek();
   Span peek_span();
   char peek_char();
 
   std::string_view word();
-  /// What stands here to the end of the line.
+  /// Consumes the rest of the line.
   Span take_rest();
   bool take_word(std::string_view wanted);
-  /// A text in quotes, without them.
+  /// Reads a quoted text and returns it without the quotes.
   std::string quoted();
 
-  /// A value, with the word in front of it.
+  /// Reads a value and the word in front of it.
   SlotValue read(const Slot& slot);
-  /// One for each slot; those that may lack in any order.
+  /// Reads one value per slot; optional slots may come in any order.
   std::vector<SlotValue> read(std::span<const Slot> slots);
 
-  /// Tells what is wrong with what stands here.
+  /// Reports an error at the current word.
   void fail(const Rule& rule, Message message, Message help = {});
   void fail_at(Span span, const Rule& rule, Message message, Message help = {});
 
 private:
-  /// Tells what the value that stands here must be.
+  /// Reports what the value at the current position must be.
   void wrong(const Slot& slot, Message problem);
   void read_value(const Slot& slot, SlotValue& value);
   void read_number(const Slot& slot, SlotValue& value);
@@ -80,7 +81,7 @@ private:
   void read_choice(const Slot& slot, SlotValue& value);
   double read_coordinate(std::string_view axis);
   std::string slashed();
-  /// Whether the word, or sign, in front of a slot stands here, and takes it.
+  /// Consumes the word or sign in front of a slot; returns true if it was there.
   bool take_before(const Slot& slot);
   bool begins(const Slot& slot);
 

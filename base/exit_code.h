@@ -6,7 +6,7 @@
 
 namespace orb {
 
-/// What the shell learns from orb. Scripts depend on the numbers; they never change meaning.
+/// The exit codes of orb. Scripts depend on them: a number never changes its meaning.
 enum class ExitCode : int {
   Done = 0,
   BadInput = 1,
@@ -17,7 +17,7 @@ enum class ExitCode : int {
   LinkLost = 6,
   Unknown = 7,
   Bug = 70,
-  Interrupted = 130, ///< 128 and SIGINT, as shells count
+  Interrupted = 130, ///< 128 + SIGINT, the shell convention
 };
 
 struct ExitCodeInfo {
@@ -25,7 +25,7 @@ struct ExitCodeInfo {
   std::string_view meaning;
 };
 
-/// The exit codes in words: one table for the manual and for whoever asks.
+/// The meaning of each exit code, for the manual and the help.
 inline constexpr auto exit_codes = std::to_array<ExitCodeInfo>({
     {ExitCode::Done, "done; no findings at error level"},
     {ExitCode::BadInput,
@@ -44,7 +44,7 @@ inline constexpr auto exit_codes = std::to_array<ExitCodeInfo>({
     {ExitCode::Interrupted, "an upload or a command to a ball was ended by Ctrl-C"},
 });
 
-/// Why something could not be done: the sentence to print and the code to end with.
+/// A failed operation: the sentence to print and the exit code.
 struct Failure {
   ExitCode code = ExitCode::BadInput;
   std::string message;

@@ -7,14 +7,14 @@
 
 namespace orb {
 
-/// Collects the findings on a source, in the order in which they are made.
+/// Collects the findings on a source, in the order in which they are added.
 class Findings {
 public:
   Findings() = default;
-  /// `first` come first, such as those of the parser.
+  /// Starts with `first`, such as the findings of the parser.
   explicit Findings(std::vector<Diagnostic> first) : all_(std::move(first)) {}
 
-  /// Adds a finding; the reference is good until the next call.
+  /// Adds a finding. The reference is valid until the next call.
   Diagnostic& add(const Rule& rule, Span span, Message message, Message help = {}) {
     return all_.emplace_back(finding(rule, span, std::move(message), std::move(help)));
   }

@@ -10,10 +10,10 @@
 namespace orb {
 namespace {
 
-/// The edits taken so far, by where they begin.
+/// The edits accepted so far, by their start.
 class Edits {
 public:
-  /// Takes all edits of a fix, or none when one touches what was taken before.
+  /// Accepts all edits of a fix, or none if one touches an accepted edit.
   bool take(const Fix& fix) {
     for (const auto& edit : fix.edits)
       if (touches(edit.span))
@@ -54,7 +54,7 @@ std::ptrdiff_t errors_in(const std::vector<Diagnostic>& findings) {
   return std::count_if(findings.begin(), findings.end(), keeps_from_building);
 }
 
-/// What two texts do not have in common, in the second.
+/// The span of `to` that differs from `from`.
 Span changed(std::string_view from, std::string_view to) {
   const auto most = std::min(from.size(), to.size());
   std::size_t left = 0;
@@ -71,8 +71,7 @@ Span changed(std::string_view from, std::string_view to) {
   return {static_cast<std::uint32_t>(left), static_cast<std::uint32_t>(end)};
 }
 
-/// How many more errors of each kind there are, those that come to light in `shown` left out: a
-/// mistake hid them.
+/// The increase in errors per rule. Errors inside `shown` do not count: the fixed mistake hid them.
 std::map<const Rule*, int> more_errors(const std::vector<Diagnostic>& before,
                                        const std::vector<Diagnostic>& after, Span shown) {
   std::map<const Rule*, int> more;
@@ -86,8 +85,8 @@ std::map<const Rule*, int> more_errors(const std::vector<Diagnostic>& before,
   return more;
 }
 
-/// Whether a text is better off: nowhere more errors of a kind, and fewer errors in all, or less to
-/// say, or less of the kind `mended`.
+/// True if the second text is better: no rule has more errors, and there are fewer errors in all,
+/// fewer findings, or fewer of the rule `mended`.
 bool is_better(const std::vector<Diagnostic>& before, const std::vector<Diagnostic>& after,
                Span shown, const Rule* mended) {
   const auto more = more_errors(before, after, shown);
@@ -100,7 +99,7 @@ bool is_better(const std::vector<Diagnostic>& before, const std::vector<Diagnost
   return errors_in(after) <= errors_in(before) || of_kind(after) < of_kind(before);
 }
 
-/// The same fix in two rounds.
+/// Identifies a fix across rounds.
 std::string key_of(std::string_view text, const Diagnostic& diagnostic) {
   std::string key(diagnostic.rule == nullptr ? "" : diagnostic.rule->id);
   for (const auto& edit : diagnostic.fix->edits)
@@ -141,7 +140,7 @@ void say_lines(std::string_view text, std::vector<Diagnostic>& diagnostics) {
 }
 
 Fixed fix_all(std::string text, const Check& check) {
-  // What a fix is judged by is what the next round begins with.
+  // Keep the findings of the accepted text: the next round starts from them.
   std::string last;
   std::vector<Diagnostic> found;
   bool any = false;
@@ -157,8 +156,8 @@ Fixed fix_all(std::string text, const Check& check) {
 }
 
 Fixed fix_all(std::string text, const Check& check, const Check& judge) {
-  // One mistake can hide the next one on its line, so a few rounds are normal; the bound only keeps
-  // a fix that would undo another from running forever.
+  // A mistake can hide the next one on its line, so a few rounds are normal. The limit stops two
+  // fixes that undo each other from looping forever.
   constexpr int most_rounds = 64;
   Fixed all{std::move(text), 0};
   auto findings = check(all.text);

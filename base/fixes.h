@@ -10,28 +10,28 @@
 
 namespace orb {
 
-/// A text after some fixes.
+/// A text after fixing.
 struct Fixed {
   std::string text;
-  std::size_t count = 0; ///< fixes made
+  std::size_t count = 0; ///< fixes applied
 };
 
-/// The text with these fixes made; of two that touch each other the first wins.
+/// Applies the fixes; if two touch each other, the first wins.
 Fixed apply_fixes(std::string_view text, const std::vector<Diagnostic>& diagnostics);
 
-/// A finding that has a fix within its line and says nothing of what helps says the line to write.
+/// Adds the fixed line as help to each finding that has a fix within its line and no help yet.
 void say_lines(std::string_view text, std::vector<Diagnostic>& diagnostics);
 
-/// All findings about a text.
+/// Returns all findings about a text.
 using Check = std::function<std::vector<Diagnostic>(std::string_view text)>;
 
-/// Makes the safe fixes, again and again until none is left: fixing the result changes nothing
-/// more. Each fix is tried first, and withheld where an error of another kind would come to be
-/// elsewhere, or nothing would be gained. All fixes of a round are tried together, and one by one,
-/// on what the ones before it left, where they get in each other's way.
+/// Applies the safe fixes until none is left, so that fixing the result changes nothing. Each fix
+/// is tried first and withheld if it adds an error of another kind elsewhere, or gains nothing. The
+/// fixes of a round are tried together; if they conflict, one by one, each on the result of those
+/// before.
 Fixed fix_all(std::string text, const Check& check);
 
-/// The same where a quicker check is enough to judge what a fix has led to.
+/// The same, with a faster check `judge` that decides whether a fix helped.
 Fixed fix_all(std::string text, const Check& check, const Check& judge);
 
 } // namespace orb

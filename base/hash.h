@@ -5,7 +5,8 @@
 
 namespace orb {
 
-/// Tells texts apart, the same everywhere and for ever (FNV-1a); not for secrets.
+/// Hashes a text (FNV-1a); the value is the same on every platform and never changes. Not for
+/// secrets.
 constexpr std::uint64_t hash(std::string_view text) {
   std::uint64_t value = 14695981039346656037u;
   for (const char c : text)

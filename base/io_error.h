@@ -5,7 +5,7 @@
 
 namespace orb {
 
-/// Why a file could not be read or written: the sentence to print.
+/// The sentence to print if a file cannot be read or written.
 struct IoError {
   std::string message;
 };

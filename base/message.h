@@ -13,29 +13,28 @@
 
 namespace orb {
 
-/// What fills a hole of a text.
+/// The kind of value that fills a hole of a text.
 enum class Hole : std::uint8_t {
-  Code,   ///< source, or words of a computer language, in backticks; no language of people
+  Code,   ///< source code, shown in backticks; never translated
   Number, ///< a whole number
-  Name,   ///< names, figures and amounts, such as `90 ms`; the same in every language of people
+  Name,   ///< names, figures and amounts, such as `90 ms`; never translated
   Part,   ///< another message
 };
 
-/// What people can be told: a row of a table of texts (base/texts.inc).
+/// A text shown to users: a row of a table of texts (base/texts.inc).
 struct Text {
-  std::string_view english; ///< with a named hole, `{word}`, for each part that differs
+  std::string_view english; ///< with a named hole, `{word}`, for each variable part
 };
 
-/// What somebody is told, as data: a text and what fills its holes, or words that are the same in
-/// every language. Renderers make sentences of it (in_english(), base/catalogue.h); nobody else
-/// looks at its words.
+/// A message as data: a text with its fillers, or literal words. Only renderers turn it into a
+/// sentence (in_english(), base/catalogue.h); no other code may read its words.
 class Message {
 public:
-  /// Nothing.
+  /// An empty message.
   Message() = default;
   Message(const Text& text, std::vector<Message> fillers)
       : text_(&text), fillers_(std::move(fillers)) {}
-  /// Words that no language of people changes: source, names, figures, what another program said.
+  /// Literal words that are never translated: source, names, figures, output of another program.
   static Message as_is(std::string words) {
     Message message;
     message.words_ = std::move(words);
@@ -43,14 +42,14 @@ public:
   }
 
   bool empty() const { return text_ == nullptr && words_.empty(); }
-  /// The row; null for words as they are.
+  /// The row; null for literal words.
   const Text* text() const { return text_; }
   bool is(const Text& text) const { return text_ == &text; }
-  /// The words as they are; empty where there is a row.
+  /// The literal words; empty if there is a row.
   const std::string& words() const { return words_; }
-  /// What fills the holes, in their order.
+  /// The fillers, in the order of the holes.
   const std::vector<Message>& fillers() const { return fillers_; }
-  /// Puts something else into a hole.
+  /// Replaces the filler of a hole.
   void refill(std::size_t hole, Message filler) { fillers_[hole] = std::move(filler); }
 
   friend bool operator==(const Message&, const Message&) = default;
@@ -61,10 +60,10 @@ private:
   std::vector<Message> fillers_;
 };
 
-/// The sentence in English.
+/// Renders the message in English.
 std::string in_english(const Message& message);
 
-/// `text` with what fills each of its named holes; `hole(name)` gives it.
+/// Replaces each named hole of `text` by `hole(name)`.
 template <typename Filler>
 std::string with_holes_filled(std::string_view text, const Filler& hole) {
   std::string out;
@@ -77,7 +76,7 @@ std::string with_holes_filled(std::string_view text, const Filler& hole) {
   return out.append(text);
 }
 
-/// The place of a hole among those of a text: the names count, in the order in which they appear.
+/// The index of a hole: names count in the order of their first appearance.
 constexpr std::size_t place_of_hole(std::string_view english, std::string_view name) {
   std::size_t place = 0;
   for (std::size_t open = english.find('{'); open != std::string_view::npos;
@@ -85,14 +84,14 @@ constexpr std::size_t place_of_hole(std::string_view english, std::string_view n
     const auto here = english.substr(open + 1, english.find('}', open) - open - 1);
     if (here == name)
       return place;
-    // A name that appeared before has its place already.
+    // Skip repeated names: they are already counted.
     if (english.find(english.substr(open, here.size() + 2)) == open)
       ++place;
   }
   return place;
 }
 
-/// Text that fills a hole: source, or a name.
+/// Text that fills a hole: source or a name.
 struct Words {
   Words(std::string_view given) : words(given) {}
   Words(std::string given) : words(std::move(given)) {}
@@ -110,7 +109,7 @@ struct Figure {
   std::string words;
 };
 
-/// A row of a table of texts, with what it takes: a function that makes messages.
+/// A row of a table of texts: calling it with its fillers makes a message.
 template <Hole... Kinds>
 struct Row : Text {
   explicit consteval Row(std::string_view words) : Text{words} { check(words, {Kinds...}); }
@@ -131,7 +130,7 @@ private:
   static Message filler(Words given) { return Message::as_is(std::move(given.words)); }
   static Message filler(Figure given) { return Message::as_is(std::move(given.words)); }
 
-  /// Code is in backticks, and nothing else is; a kind for each hole.
+  /// Checks that code holes, and only they, are in backticks, and that each hole has a kind.
   static consteval void check(std::string_view words, std::initializer_list<Hole> kinds) {
     std::size_t holes = 0;
     for (auto open = words.find('{'); open != std::string_view::npos;

@@ -6,13 +6,13 @@
 
 namespace orb {
 
-/// Whether a path begins with a drive of Windows: `C:/robots/square.bas`.
+/// True if the path begins with a Windows drive: `C:/robots/square.bas`.
 constexpr bool has_drive(std::string_view path) {
   return path.size() > 2 && is_letter(path[0]) && path[1] == ':' &&
          (path[2] == '/' || path[2] == '\\');
 }
 
-/// Whether a path counts from the root, on Unix or Windows.
+/// True if the path is absolute, on Unix or Windows.
 constexpr bool is_absolute_path(std::string_view path) {
   return path.starts_with('/') || has_drive(path);
 }

@@ -2,19 +2,19 @@
 
 #include <tao/pegtl.hpp>
 
-// What the three parsers share (compiler/, assembler/, structured/): rules of PEGTL that are
-// matched by hand, what a rule does, and what is reported where a rule that must match does not.
-// Each parser brings, in its own namespace, a Builder, a Stop that ends the parse of a line, and
-// `template <typename Rule> constexpr … reason` with what Stop says. Only parsers include this: it
-// takes a second to compile.
+// The common base of the three parsers (compiler/, assembler/, structured/): PEGTL rules matched by
+// hand, their actions, and the error if a required rule does not match. Each parser defines in its
+// own namespace a Builder, a ParseStop that ends the parse of a line, and `template <typename Rule>
+// constexpr … reason`, the reason passed to ParseStop. Only parsers include this header: it takes a
+// second to compile.
 
-/// What stands before a function that goes on with other rules.
+/// The template header of a match function that calls other rules.
 #define ORB_RULE_TEMPLATE                                                                          \
   template <apply_mode A, rewind_mode M, template <typename...> class Action,                      \
             template <typename...> class Control, typename Input>
 
-/// A rule that is matched by hand, in ORB_MATCH(name). What it consumes is said to analyze(), which
-/// proves that no loop stands still, by analyze_traits.
+/// A rule matched by hand, with its body in ORB_MATCH(name). The `analyze_traits` declare what it
+/// consumes, so that analyze() can prove that no loop runs without progress.
 #define ORB_BY_HAND(name)                                                                          \
   struct name {                                                                                    \
     using rule_t = name;                                                                           \
@@ -23,25 +23,25 @@
   };
 #define ORB_MATCH(name)                                                                            \
   ORB_RULE_TEMPLATE bool name::match([[maybe_unused]] Input& in, [[maybe_unused]] Builder& builder)
-/// Whether another rule matches, within ORB_MATCH.
+/// Matches another rule, within ORB_MATCH; true if it matches.
 #define ORB_MATCHES(rule) Control<rule>::template match<A, M, Action, Control>(in, builder)
 
-/// What is reported where a rule, which may have commas, must match and does not.
+/// Sets the reason reported if a required rule does not match. The rule may contain commas.
 #define ORB_REASON(what, ...)                                                                      \
   template <>                                                                                      \
   inline constexpr auto reason<__VA_ARGS__> = what;
 
-/// Throws a Stop for the rule that should have matched.
+/// Throws a ParseStop for the rule that should have matched.
 #define ORB_CONTROL                                                                                \
   template <typename Rule>                                                                         \
   struct Control : tao::pegtl::normal<Rule> {                                                      \
     template <typename Input>                                                                      \
     [[noreturn]] static void raise(const Input& in, Builder&) {                                    \
-      throw Stop{reason<Rule>, in.current()};                                                      \
+      throw ParseStop{reason<Rule>, in.current()};                                                 \
     }                                                                                              \
   };
 
-/// What is done when `rule` has matched; `in` is what it consumed.
+/// Defines the action for a matched `rule`; `in` is the text it consumed.
 #define ORB_ACTIONS                                                                                \
   template <typename Rule>                                                                         \
   struct Action : tao::pegtl::nothing<Rule> {};
@@ -56,7 +56,7 @@
 
 namespace orb::peg {
 
-/// A text that is parsed, whose lines are nobody's business.
+/// Input without line tracking: each text is one line.
 using Input =
     tao::pegtl::memory_input<tao::pegtl::tracking_mode::lazy, tao::pegtl::eol::lf, const char*>;
 

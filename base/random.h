@@ -4,8 +4,8 @@
 
 namespace orb {
 
-/// A small seeded generator (SplitMix64): the same numbers from every compiler, which the standard
-/// distributions do not promise. Not for secrets.
+/// A small seeded generator (SplitMix64). It gives the same numbers with every compiler, which the
+/// standard distributions do not promise. Not for secrets.
 struct Random {
   static constexpr std::uint64_t stride = 0x9E3779B97F4A7C15ULL;
 
@@ -22,10 +22,10 @@ struct Random {
     return mix(state);
   }
 
-  /// A number from 0 to `bound` - 1; `bound` is not 0. The bias is below bound / 2^64.
+  /// Returns a number from 0 to `bound` - 1; `bound` must not be 0. The bias is below bound / 2^64.
   constexpr std::uint64_t below(std::uint64_t bound) { return next() % bound; }
 
-  /// True with the given probability, 0 to 1.
+  /// Returns true with the given probability, 0 to 1.
   constexpr bool chance(double probability) {
     return static_cast<double>(next() >> 11) < probability * 9007199254740992.0; // 2^53
   }

@@ -8,7 +8,7 @@
 
 namespace orb {
 
-/// The failure as the result of an operation.
+/// Wraps a failure as the result of an operation.
 inline tl::unexpected<Failure> refuse(ExitCode code, std::string message) {
   return tl::unexpected(Failure{code, std::move(message)});
 }

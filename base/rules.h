@@ -1,6 +1,6 @@
 #pragma once
 
-// What every table of rules needs (base/rules.inc makes one); nobody else has to include this.
+// Support for base/rules.inc, which makes a table of rules. Include this only through it.
 
 #include "base/diagnostic.h"
 
@@ -11,7 +11,7 @@
 
 namespace orb {
 
-/// Whether no two rules of a table share an id.
+/// True if no two rules of a table share an id.
 consteval bool ids_are_unique(std::span<const Rule> table) {
   for (std::size_t i = 0; i < table.size(); ++i)
     for (std::size_t j = i + 1; j < table.size(); ++j)
@@ -20,12 +20,12 @@ consteval bool ids_are_unique(std::span<const Rule> table) {
   return true;
 }
 
-/// The id that a rule has now, of one that it had before; every other word is returned as it is.
+/// Maps a former rule id to the current one; returns any other word unchanged.
 constexpr std::string_view current_id(std::string_view id) {
   return id == "include-circle" ? "include-cycle" : id;
 }
 
-/// The rule of that id, or of that former id; or null.
+/// Finds the rule by its current or former id; null if there is none.
 constexpr const Rule* find_rule(std::span<const Rule> table, std::string_view id) {
   id = current_id(id);
   for (const auto& rule : table)

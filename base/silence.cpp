@@ -13,7 +13,7 @@ struct Allowed {
   Span about;
 };
 
-/// The names after the mark, separated by blanks or commas.
+/// The names after the mark, separated by spaces or commas.
 std::vector<Span> names_in(std::string_view text, Span comment) {
   constexpr std::string_view blanks = " ,\t\r";
   const auto line = text.substr(0, comment.end);

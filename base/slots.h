@@ -1,7 +1,7 @@
 #pragma once
 
-// What stands behind a word of a line, as data. Tables of words have it in a column; one reader
-// (base/cursor.h) reads all of them, and one printer describes them.
+// The values after a word of a line, as data. Tables of words have a column of slots; one reader
+// (base/cursor.h) reads all of them and one printer describes them.
 
 #include "base/texts.h"
 #include "base/units.h"
@@ -23,44 +23,45 @@ struct Slot {
     Number,
     Whole,
     Length,   ///< with a unit
-    Range,    ///< `A..B`, with a unit where there are several
+    Range,    ///< `A..B`, with a unit if the slot has several
     Time,     ///< with a unit
     TimeSpan, ///< `TIME..TIME`
     Place,    ///< `X,Y`
     Axis,     ///< `x>70`
     Text,     ///< in quotes
-    Match,    ///< a text, a part of one, or a pattern
+    Match,    ///< a whole text, a part of one, or a pattern
     File,
     Choice, ///< one of a few words
-    Zone,   ///< what its language looks up, in quotes or not, as are the next three
+    Zone,   ///< read by its language, quoted or not; so are the next three
     Macro,
-    Variable, ///< ends at a `=`, too
+    Variable, ///< also ends at a `=`
     Word,
     Version,
     Firmware,
     Seeds,
     Colour, ///< a word, or `#RRGGBB`
-    Rest,   ///< its language reads it
+    Rest,   ///< read by its language
   };
   Kind kind = Kind::Rest;
-  std::string_view shown;        ///< in a description of the line: `TIME`
-  const Row<>* called = nullptr; ///< in a message; null only for a Place, an Axis and a Rest
+  std::string_view shown;        ///< its name in the usage line: `TIME`
+  const Row<>* called = nullptr; ///< its name in messages; null only for a Place, an Axis and a
+                                 ///< Rest
   std::int64_t least = 0;        ///< of numbers
   std::int64_t most = 0;
-  std::span<const Unit> units{}; ///< values count in the first
-  std::string_view usual{};      ///< what is mostly written; may be empty
-  std::string_view words{};      ///< of a choice, with `|` between two; in place of a time; the
-                                 ///< signs of an axis
-  std::string_view before{};     ///< the word, or sign, in front of it
-  bool may_lack = false;         ///< always with a word in front, but for a Rest
+  std::span<const Unit> units{}; ///< values count in the first one
+  std::string_view usual{};      ///< the usual value; may be empty
+  std::string_view words{};      ///< separated by `|`: of a choice; in place of a time; the signs
+                                 ///< of an axis
+  std::string_view before{};     ///< the word or sign in front of it
+  bool may_lack = false;         ///< optional; needs a word in front, except for a Rest
   bool repeats = false;
 
   Message name() const { return (*called)(); }
   /// The words of a choice.
   std::vector<std::string_view> choices() const;
-  /// Whether its numbers have a least and a greatest.
+  /// True if its numbers have limits.
   constexpr bool is_limited() const { return least != most; }
-  /// Whether any number of the robot will do.
+  /// True if it takes any 32-bit number.
   constexpr bool is_any() const { return least == INT32_MIN && most == INT32_MAX; }
 
   constexpr Slot after(std::string_view word) const {
@@ -80,7 +81,7 @@ struct Slot {
   }
 };
 
-/// All that stands behind a word.
+/// The slots after a word.
 struct Slots {
   static constexpr std::size_t most = 4;
 
@@ -98,16 +99,16 @@ struct Slots {
   std::size_t count;
 };
 
-/// What a number or a word must be: `the heading must be 0 to 359`.
+/// States the allowed values: `the heading must be 0 to 359`.
 Message must_be(const Slot& slot);
 
-/// How it is written: `X,Y by LENGTH`, `FILE [at X,Y]`.
+/// Prints the syntax: `X,Y by LENGTH`, `FILE [at X,Y]`.
 std::string usage(const Slots& slots);
 
-/// A word and what stands behind it.
+/// Prints a word and its slots.
 std::string usage(std::string_view word, const Slots& slots);
 
-/// What many tables have.
+/// Slots that several tables use.
 namespace slot {
 
 using Kind = Slot::Kind;
@@ -120,14 +121,14 @@ constexpr Slot number(std::string_view shown, const Row<>& called, std::int64_t 
                       std::int64_t most) {
   return {Kind::Number, shown, &called, least, most};
 }
-/// One of several words, as `on|off`.
+/// One of several words, such as `on|off`.
 constexpr Slot choice(std::string_view words, const Row<>& called) {
   return {.kind = Kind::Choice, .shown = words, .called = &called, .words = words};
 }
 constexpr Slot word(Kind kind, std::string_view shown, const Row<>& called) {
   return {kind, shown, &called};
 }
-/// What its language reads by itself, where it stands among others.
+/// A slot that its language reads itself, among others.
 constexpr Slot rest(std::string_view shown) {
   return {Kind::Rest, shown};
 }

@@ -6,7 +6,7 @@
 namespace orb {
 
 std::string_view file_name(std::string_view path) {
-  return path.substr(path.rfind('/') + 1); // npos + 1 is the begin
+  return path.substr(path.rfind('/') + 1); // npos + 1 is 0
 }
 
 std::string_view stem(std::string_view path) {

@@ -16,7 +16,7 @@ struct Span {
   friend constexpr bool operator==(Span, Span) = default;
 };
 
-/// A place in a text: both count from 1, the column in bytes.
+/// A place in a text. Line and column count from 1; the column counts bytes.
 struct Position {
   std::uint32_t line = 1;
   std::uint32_t column = 1;
@@ -24,12 +24,12 @@ struct Position {
   friend constexpr bool operator==(Position, Position) = default;
 };
 
-/// The last part of a path: all of it where there is no `/`.
+/// The last part of a path; all of it if there is no `/`.
 std::string_view file_name(std::string_view path);
-/// The name of a file without folders and ending.
+/// The file name without folders and extension.
 std::string_view stem(std::string_view path);
 
-/// A named text with its lines found once. LF, CR and CRLF all end a line (decision A-3).
+/// A named text with its line starts. LF, CR and CRLF all end a line (decision A-3).
 class Source {
 public:
   Source(std::string name, std::string text);
@@ -39,13 +39,13 @@ public:
   std::string_view text(Span span) const;
 
   std::uint32_t line_count() const { return static_cast<std::uint32_t>(starts_.size()); }
-  /// The place of byte `offset`; one past the last byte is a place too, farther is clamped.
+  /// The place of byte `offset`. One past the last byte is valid; larger offsets are clamped.
   Position position(std::uint32_t offset) const;
-  /// The text of line `line` (from 1) without its line end; empty beyond the last line.
+  /// The text of line `line` (from 1) without its line ending; empty beyond the last line.
   std::string_view line(std::uint32_t line) const;
   /// The byte where line `line` (from 1) begins; the size of the text beyond the last line.
   std::uint32_t line_start(std::uint32_t line) const;
-  /// Where line `line` stands, without its line end.
+  /// The span of line `line`, without its line ending.
   Span line_span(std::uint32_t line) const;
 
 private:

@@ -5,14 +5,14 @@
 
 namespace orb {
 
-/// What a piece of terminal output is; the colour follows from it.
+/// The kind of terminal output; it determines the colour.
 enum class Role { Error, Warning, Note, Good, Bold, Dim };
 
-/// Whether output is coloured. The edge decides once (flag, NO_COLOR, terminal); the rest obeys.
+/// The colour setting. The edge decides it once (flag, NO_COLOR, terminal) and passes it down.
 struct Style {
   bool color = false;
 
-  /// `text` wrapped in the escape codes of `role`, or unchanged where colour is off.
+  /// Wraps `text` in the escape codes of `role`; returns it unchanged if colour is off.
   std::string paint(Role role, std::string_view text) const;
 };
 

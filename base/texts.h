@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-/// What several modules say, and the words around every finding: `texts::Write(line)`.
+/// Messages shared by several modules, and the words around every finding: `texts::Write(line)`.
 namespace orb::texts {
 
 #define ORB_TEXTS "base/texts.def"
@@ -18,8 +18,8 @@ namespace orb::texts {
 
 namespace orb {
 
-/// Words of a table, such as spec/: the row of a module, or of these, that says them; names that
-/// have none are the same in every language.
+/// Finds the row, of `rows` or of these, for words of a table such as spec/. Names without a row
+/// are the same in every language.
 inline Message find_text(std::span<const Text* const> rows, std::string_view words) {
   for (const auto all : {rows, texts::all()})
     for (const auto* row : all)
@@ -28,7 +28,7 @@ inline Message find_text(std::span<const Text* const> rows, std::string_view wor
   return Message::as_is(std::string(words));
 }
 
-/// Of one or of several: `1 error`, `2 errors`.
+/// Chooses singular or plural: `1 error`, `2 errors`.
 inline Message counted(std::size_t n, const Row<>& one, const Row<Hole::Number>& several) {
   return n == 1 ? one() : several(n);
 }

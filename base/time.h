@@ -5,11 +5,11 @@
 
 namespace orb {
 
-/// All times of the project: signed 64-bit nanoseconds, which hold 292 years.
+/// All times of the project: signed 64-bit nanoseconds, a range of 292 years.
 using Duration = std::chrono::nanoseconds;
 
-/// Names the time line that `Instant` lies on. It has no `now()`: only the edge reads a clock,
-/// everything else is handed the time.
+/// The time line of `Instant`. It has no `now()`: only the edge reads a clock; all other code is
+/// handed the time.
 struct TimeLine {
   using rep = Duration::rep;
   using period = Duration::period;
@@ -20,7 +20,7 @@ struct TimeLine {
 
 using Instant = TimeLine::time_point;
 
-/// The moment after everything: what `next_event()` says when nothing will happen by itself.
+/// Later than every other moment: `next_event()` returns it if nothing will happen by itself.
 inline constexpr Instant never = Instant::max();
 
 using namespace std::chrono_literals;

@@ -12,7 +12,7 @@ namespace {
 
 constexpr auto most_steps = std::numeric_limits<std::int64_t>::max();
 
-/// `.DIGITS` in steps of which one has `per`: from the last digit on, so that none is lost.
+/// Converts `.DIGITS` to steps, `per` to one. Starts at the last digit to lose none.
 Steps part_of(std::string_view digits, std::int64_t per) {
   Steps part;
   for (auto at = digits.size(); at-- > 0;) {

@@ -7,20 +7,20 @@
 #include <string>
 #include <string_view>
 
-// Numbers with units. Each language says which units it takes.
+// Numbers with units. Each language chooses the units it takes.
 
 namespace orb {
 
 enum class Measure : std::uint8_t { Number, Percent, Time, Length, Speed, Angle };
 
-/// A unit, and how many steps of its measure it is: ns, µm, µm/s, millionths of a degree; of a
-/// number: ones.
+/// A unit and its size in steps of its measure: ns, µm, µm/s, millionths of a degree; for a plain
+/// number, ones.
 struct Unit {
   std::string_view word;
   Measure measure;
   std::int64_t steps;
 
-  /// How many of `other` it is: a metre is 100 centimetres.
+  /// The ratio of this unit to `other`: a metre is 100 centimetres.
   constexpr double in(const Unit& other) const {
     return static_cast<double>(steps) / static_cast<double>(other.steps);
   }
@@ -44,14 +44,14 @@ inline constexpr Unit m_s{"m/s", Measure::Speed, m.steps};
 inline constexpr Unit deg{"deg", Measure::Angle, 1'000'000};
 } // namespace unit
 
-/// The one of them that is written so; nothing where none is.
+/// Finds the unit by its word; null if there is none.
 constexpr const Unit* find_unit(std::string_view word, std::span<const Unit> units) {
   const auto found =
       std::find_if(units.begin(), units.end(), [&](const Unit& one) { return one.word == word; });
   return found == units.end() ? nullptr : &*found;
 }
 
-/// What stands in front, `-2.5`, and what follows: `cm`. A point belongs to a number where a digit
+/// A number at the front, `-2.5`, and the rest, `cm`. A point belongs to the number if a digit
 /// follows it.
 struct Amount {
   std::string_view number;
@@ -61,17 +61,17 @@ Amount split_amount(std::string_view text);
 
 struct Steps {
   std::int64_t count = 0;
-  bool exact = true; ///< false: cut towards zero
+  bool exact = true; ///< false: truncated towards zero
 };
 
-/// The number that all of `number` is, such as `-2.5`, in steps of which one has `per`. Nothing
-/// where it is none, or too large.
+/// Parses all of `number`, such as `-2.5`, into steps, `per` to one. Returns nothing if it is
+/// malformed or too large.
 std::optional<Steps> steps_of(std::string_view number, std::int64_t per);
 
-/// `0x1F`. Nothing where it is none; at most what fits.
+/// Parses `0x1F`; saturates. Returns nothing if it is malformed.
 std::optional<std::int64_t> hexadecimal(std::string_view text);
 
-/// Thousandths as a number is written: `-2.5`.
+/// Prints thousandths as a number: `-2.5`.
 std::string thousandths_text(std::int64_t thousandths);
 
 } // namespace orb

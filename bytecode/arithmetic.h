@@ -9,8 +9,9 @@
 
 namespace orb::bytecode {
 
-// What numbers do: 32 bits, two's complement, wrapping. The machine, the compiler's
-// constant folding and the evaluator of the tests agree on this file's meaning, each its own way.
+// Integer arithmetic of the robot: 32 bits, two's complement, wrapping. The machine
+// and the compiler's constant folding use it; the evaluator of the tests implements the same rules
+// independently.
 
 constexpr std::int32_t wrap(std::int64_t value) {
   return static_cast<std::int32_t>(static_cast<std::uint32_t>(value));
@@ -25,22 +26,22 @@ constexpr std::int32_t subtract(std::int32_t x, std::int32_t y) {
 constexpr std::int32_t multiply(std::int32_t x, std::int32_t y) {
   return wrap(std::int64_t{x} * y);
 }
-/// Rounds toward zero; `y` is not 0. The least number divided by -1 is itself.
+/// Rounds toward zero; `y` must not be 0. INT32_MIN / -1 wraps to INT32_MIN.
 constexpr std::int32_t divide(std::int32_t x, std::int32_t y) {
   return wrap(std::int64_t{x} / y);
 }
-/// Has the sign of `x`; `y` is not 0.
+/// The result has the sign of `x`; `y` must not be 0.
 constexpr std::int32_t remainder(std::int32_t x, std::int32_t y) {
   return wrap(std::int64_t{x} % y);
 }
 constexpr bool is_shift_count(std::int32_t count) {
   return count >= 0 && count <= spec::value_of(spec::Limit::GreatestShift);
 }
-/// `count` is 0 to 31.
+/// `count` must be 0 to 31.
 constexpr std::int32_t shift_left(std::int32_t x, std::int32_t count) {
   return static_cast<std::int32_t>(static_cast<std::uint32_t>(x) << count);
 }
-/// Keeps the sign; `count` is 0 to 31.
+/// Arithmetic shift; `count` must be 0 to 31.
 constexpr std::int32_t shift_right(std::int32_t x, std::int32_t count) {
   return x >> count;
 }
@@ -48,7 +49,7 @@ constexpr std::int32_t absolute(std::int32_t x) {
   return x < 0 ? subtract(0, x) : x;
 }
 
-/// What an operator makes of two numbers; nothing where it would stop the program.
+/// Applies an operator; returns nothing if it would stop the program.
 constexpr std::optional<std::int32_t> calculate(spec::Operator op, std::int32_t x, std::int32_t y) {
   using Value = std::optional<std::int32_t>;
   switch (op) {
@@ -65,19 +66,19 @@ constexpr std::optional<std::int32_t> calculate(spec::Operator op, std::int32_t 
   return std::nullopt;
 }
 
-/// Moves a negative `x` so far that cutting off its low bits divides it by a power of two and
-/// rounds toward zero.
+/// Adjusts a negative `x` so that a right shift divides it by a power of two and rounds toward
+/// zero.
 constexpr std::int32_t before_cut(std::int32_t x, std::int32_t power) {
   return add(x, x >> 31 & (power - 1));
 }
 
-/// The upper 64 bits of a product of 96, in two products; `y` is positive.
+/// The upper 64 bits of a 96-bit product, from two partial products; `y` must be positive.
 constexpr std::int64_t upper_by_parts(std::int32_t x, std::int64_t y) {
-  const auto low = x * (y & 0xFFFFFFFF); // of y
+  const auto low = x * (y & 0xFFFFFFFF); // by the low half of `y`
   const auto high = x * (y >> 32);
   return (high + (low >> 32)) >> 32;
 }
-#ifdef __wasm__ // it has no wide product
+#ifdef __wasm__ // no 128-bit product
 constexpr std::int64_t upper(std::int32_t x, std::int64_t y) {
   return upper_by_parts(x, y);
 }
@@ -88,12 +89,12 @@ constexpr std::int64_t upper(std::int32_t x, std::int64_t y) {
 }
 #endif
 
-/// What divide_by() multiplies with for a divisor that is above 2 and no power of two.
+/// The factor for divide_by(). The divisor must be above 2 and not a power of two.
 constexpr std::int64_t reciprocal(std::int32_t divisor) {
   return static_cast<std::int64_t>(~std::uint64_t{0} / static_cast<std::uint64_t>(divisor)) + 1;
 }
-/// divide() by the divisor of `reciprocal`: the error of the product is less than 1 / divisor, so
-/// only negative quotients, which it rounds down, need one more.
+/// divide() by the divisor of `reciprocal`. The error of the product is below 1 / divisor, so only
+/// negative quotients, which it rounds down, need a correction of 1.
 constexpr std::int32_t divide_by(std::int32_t x, std::int64_t reciprocal) {
   return static_cast<std::int32_t>(upper(x, reciprocal)) - (x >> 31);
 }

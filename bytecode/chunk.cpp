@@ -34,7 +34,7 @@ std::optional<std::string> verify(const Chunk& chunk, const Instruction& instruc
   return std::nullopt;
 }
 
-/// What an instruction says beyond its row: counts of registers and rows, numbers of tables.
+/// Checks what the operand row cannot express: counts of registers and rows, indices into tables.
 std::optional<std::string> verify_meaning(const Chunk& chunk, std::size_t at) {
   const auto& instruction = chunk.code[at];
   const auto registers_from = [&](std::uint16_t first, std::uint16_t count) {

@@ -7,16 +7,16 @@
 
 namespace orb::bytecode {
 
-/// The instructions; bytecode/op.def says what each does.
+/// The instructions. bytecode/op.def documents each.
 enum class Op : std::uint16_t {
 #define ORB_OP(name, ...) name,
 #include "bytecode/op.def"
 };
 
-/// Whether the line goes on after an instruction, or ends with it.
+/// Tells if the line continues after an instruction.
 enum class Ends : std::uint8_t { Value, Either, Line };
 
-/// How much of what an instruction does machine code can do.
+/// The share of an instruction that machine code handles.
 enum class Compiled : std::uint8_t { Wholly, Mostly, Never };
 
 struct OpInfo {

@@ -21,11 +21,11 @@ using orb::ExitCode;
 using orb::cli::Context;
 using orb::cli::Parsed;
 
-/// The first word of a command line by which the completion scripts ask: `orb __complete -- WORDS`.
-/// It is not a command of the option model, because the words after it are data, not options.
+/// The word that completion scripts begin with: `orb __complete -- WORDS`. It is not a command of
+/// the option model, because the words after it are data, not options.
 constexpr std::string_view completion_request = "__complete";
 
-/// Answers a completion script. A broken configuration costs the named balls, nothing else.
+/// Answers a completion script. A broken configuration only loses the named balls.
 void answer_completion(const orb::cli::CommandLine& line, std::vector<std::string> words) {
   if (!words.empty() && words.front() == "--")
     words.erase(words.begin());
@@ -38,8 +38,8 @@ void answer_completion(const orb::cli::CommandLine& line, std::vector<std::strin
   orb::cli::print_out(print(complete(as_data(line.root()), ports, words)));
 }
 
-/// Runs a command line that begins with a command, with nothing but that command's options; nothing
-/// where all of them are needed: to make sense of settings, or of a line that does not parse.
+/// Runs a command line with only its own command's options loaded. Nothing if all commands are
+/// needed: to check settings, or for a line that does not parse.
 std::optional<int> run_only_command(const orb::cli::Config& config,
                                     const std::vector<std::string>& words) {
   if (!config.settings.empty())
@@ -61,7 +61,7 @@ int run_command(orb::cli::CommandLine& line, Context& context,
   const auto parsed = line.parse({words.begin() + 1, words.end()});
   switch (parsed.kind) {
   case Parsed::Kind::Ran: break;
-  case Parsed::Kind::Told: orb::cli::print_out(parsed.text); return 0;
+  case Parsed::Kind::Help: orb::cli::print_out(parsed.text); return 0;
   case Parsed::Kind::Misread:
     orb::cli::print_error(context, parsed.text);
     orb::cli::print_err(
@@ -95,10 +95,10 @@ int run(const std::vector<std::string>& words) {
   return run_command(*line, context, words);
 }
 
-/// Ends as every program does whose reader has left, without a word; else says why nothing can be
-/// written.
+/// Ends silently if the reader has left, as other programs do; else reports why output is
+/// impossible.
 int end_without_output(int error) {
-  if (error == EINTR) // Ctrl-C, while whoever reads did not
+  if (error == EINTR) // Ctrl-C, while the reader goes on
     return static_cast<int>(ExitCode::Interrupted);
   orb::cli::end_if_unread(error);
   orb::cli::print_err(fmt::format("orb: error: cannot write <stdout>: {}\n", std::strerror(error)));

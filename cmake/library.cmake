@@ -1,24 +1,25 @@
 # The C++ package: what `find_package(orb)` and `pkg-config orb` find after `cmake --install`
-# (docs/library.md). The rooms below the console, with their headers under include/orb/.
+# (docs/using/library.md). The modules below the console, with their headers under include/orb/.
 
-set(library_rooms base spec protocol bytecode repair compiler assembler structured vm uploader report run)
+set(library_modules base spec protocol bytecode repair compiler assembler structured vm uploader report robot run)
 
 # The headers that others may build on. What they include is installed beside them; nothing else is.
 set(library_headers
   base/bytes.h base/diagnostic.h base/exit_code.h base/fixes.h base/random.h base/render.h base/source.h
   base/style.h base/time.h
   spec/api.h spec/basic.h spec/firmware.h spec/limits.h spec/macro.h
-  protocol/decoder.h protocol/describe.h protocol/macro.h protocol/packet.h protocol/payload.h
-  protocol/recording.h protocol/transport.h
+  protocol/decoder.h protocol/describe.h protocol/macro.h protocol/packet.h protocol/packet_v2.h protocol/payload.h
+  protocol/payload_v2.h protocol/recording.h protocol/transport.h
   compiler/check.h compiler/text/image.h compiler/lint/lint.h compiler/load.h compiler/text/print.h
   assembler/assemble.h assembler/disassemble.h
   structured/compile.h structured/text/files.h structured/lift/lift.h
   vm/ball.h vm/ball_transport.h vm/observer.h vm/stimulus.h
   uploader/endpoint.h uploader/plan.h uploader/session.h uploader/upload.h
   report/course.h report/journey.h report/page.h report/svg.h report/trace.h
+  robot/robot.h
   run/input.h run/run.h)
 
-# Copies a file and what it includes, so that `#include "room/x.h"` becomes `#include "orb/room/x.h"`: a
+# Copies a file and what it includes, so that `#include "module/x.h"` becomes `#include "orb/module/x.h"`: a
 # program of others may have a folder `run/` of its own.
 set(library_include ${CMAKE_BINARY_DIR}/library/include)
 function(orb_library_header file)
@@ -44,7 +45,7 @@ endforeach()
 file(CONFIGURE OUTPUT ${library_include}/orb/version.h @ONLY CONTENT [[
 #pragma once
 
-// The version of the installed library: semantic, see docs/library.md.
+// The version of the installed library: semantic, see docs/using/library.md.
 #define ORB_VERSION "@PROJECT_VERSION@"
 #define ORB_VERSION_MAJOR @PROJECT_VERSION_MAJOR@
 #define ORB_VERSION_MINOR @PROJECT_VERSION_MINOR@
@@ -55,12 +56,12 @@ include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 set(package ${CMAKE_INSTALL_LIBDIR}/cmake/orb)
 install(DIRECTORY ${library_include}/orb DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT dev)
-foreach(room ${library_rooms})
-  target_include_directories(orb_${room} INTERFACE $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
-  target_compile_features(orb_${room} PUBLIC cxx_std_20)
-  set_target_properties(orb_${room} PROPERTIES EXPORT_NAME ${room})
-  install(TARGETS orb_${room} EXPORT orb ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT dev)
-  list(PREPEND link_order -lorb_${room})
+foreach(module ${library_modules})
+  target_include_directories(orb_${module} INTERFACE $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+  target_compile_features(orb_${module} PUBLIC cxx_std_20)
+  set_target_properties(orb_${module} PROPERTIES EXPORT_NAME ${module})
+  install(TARGETS orb_${module} EXPORT orb ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT dev)
+  list(PREPEND link_order -lorb_${module})
 endforeach()
 install(EXPORT orb NAMESPACE orb:: DESTINATION ${package} FILE orbTargets.cmake COMPONENT dev)
 
@@ -79,7 +80,7 @@ else()
   set(library_ble OFF)
 endif()
 list(JOIN library_links " " library_links)
-list(JOIN library_rooms ", " library_rooms)
+list(JOIN library_modules ", " library_modules)
 configure_package_config_file(cmake/orbConfig.cmake.in ${CMAKE_BINARY_DIR}/library/orbConfig.cmake
   INSTALL_DESTINATION ${package})
 write_basic_package_version_file(${CMAKE_BINARY_DIR}/library/orbConfigVersion.cmake COMPATIBILITY SameMinorVersion)

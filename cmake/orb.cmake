@@ -24,10 +24,10 @@ endfunction()
 set(headers_std <algorithm> <array> <charconv> <chrono> <cmath> <cstdint> <deque> <fmt/format.h> <functional>
     <limits> <map> <memory> <numeric> <optional> <set> <span> <string> <string_view> <tl/expected.hpp> <utility>
     <variant> <vector>)
-orb_precompiled(rooms LIBRARIES fmt::fmt HEADERS ${headers_std})
-orb_precompiled(json_rooms LIBRARIES fmt::fmt nlohmann_json::nlohmann_json HEADERS ${headers_std} <nlohmann/json.hpp>)
+orb_precompiled(modules LIBRARIES fmt::fmt HEADERS ${headers_std})
+orb_precompiled(json_modules LIBRARIES fmt::fmt nlohmann_json::nlohmann_json HEADERS ${headers_std} <nlohmann/json.hpp>)
 
-option(ORB_JOIN "Compile the files of a room together: sooner from nothing, later after an edit" OFF)
+option(ORB_JOIN "Compile the files of a module together: sooner from nothing, later after an edit" OFF)
 if(ORB_JOIN AND CMAKE_CXX_COMPILER_ID STREQUAL GNU)
   # gcc tidies up its memory again and again from some 100 MB on, which takes a sixth of the time of long units.
   target_compile_options(orb_options INTERFACE --param=ggc-min-heapsize=500000)
@@ -36,14 +36,14 @@ endif()
 # With ORB_DEMO, what the demo does not show is not compiled; cli/commands/left_out.cpp stands for its commands.
 set(ORB_NOT_SHOWN "cli/commands/(completion|decode|disasm|encode|fmt|lift|man|spec|test)\\.cpp"
   "cli/commands/robot/(abort|calibrate|checkup|commit|doctor|drive|erase|exec|info)\\.cpp" cli/editors/
-  reference/cheatsheet reference/manual "run/calibrate/(course|fit)" serve/page_server
-  structured/lift/ testing/judge testing/replay testing/results testing/run_ testing/sighting testing/verdicts/)
-# Joined by themselves: folders whose private names the rest of their room has too, and those that the demo leaves out.
+  reference/cheatsheet reference/manual "run/calibrate/(measuring_drive|fit)" serve/page_server
+  structured/lift/ testing/judge testing/replay testing/run_ testing/sighting "testing/verdicts/(merge|pupils|render|render_[^j]+|render_json|report|table)\\.cpp")
+# Joined by themselves: folders whose private names the rest of their module has too, and those that the demo leaves out.
 set(ORB_APART editor/dap editor/languages/basic editor/languages/macro editor/languages/structured editor/languages/test
-  editor/lsp editor/printed run/calibrate structured/lift testing/text testing/verdicts vm/api vm/machine vm/macros vm/native)
+  editor/lsp editor/printed run/calibrate structured/lift testing/text testing/verdicts vm/api vm/machine vm/macros vm/machine/native)
 
-# orb_join(<target>): with ORB_JOIN, the files of one room are compiled together, up to thirty at a time. They see each
-# other's private names, so a room has no such name twice. A file with options of its own stays alone.
+# orb_join(<target>): with ORB_JOIN, the files of one module are compiled together, up to thirty at a time. They see each
+# other's private names, so a module has no such name twice. A file with options of its own stays alone.
 function(orb_join target)
   if(NOT ORB_JOIN)
     return()
@@ -89,9 +89,9 @@ function(orb_library folder)
       list(FILTER sources EXCLUDE REGEX "^${ORB_ROOT}/${path}")
     endforeach()
   endif()
-  set(kind rooms)
+  set(kind modules)
   if(ARG_JSON)
-    set(kind json_rooms)
+    set(kind json_modules)
   endif()
   add_library(orb_${folder} STATIC ${sources})
   add_library(orb::${folder} ALIAS orb_${folder})
@@ -132,8 +132,8 @@ function(orb_page_text variable path)
   set(${variable} "${text}" PARENT_SCOPE)
 endfunction()
 
-# orb_translations(<room>): findings, verdicts and lessons in each language travel inside the program (cli/context/language.h).
-function(orb_translations room)
+# orb_translations(<module>): findings, verdicts and lessons in each language travel inside the program (cli/context/language.h).
+function(orb_translations module)
   file(GLOB languages CONFIGURE_DEPENDS ${ORB_ROOT}/translations/*.json)
   set(rows "")
   foreach(file ${languages})
@@ -151,8 +151,8 @@ function(orb_translations room)
   string(CONCAT translations "#include \"cli/context/language.h\"\n\nnamespace orb::cli {\nnamespace {\n"
     "constexpr Translation rows[] = {\n${rows}};\n} // namespace\n\n"
     "std::span<const Translation> translations() {\n  return rows;\n}\n} // namespace orb::cli\n")
-  set(made ${CMAKE_BINARY_DIR}/${room}_translations.cpp)
+  set(made ${CMAKE_BINARY_DIR}/${module}_translations.cpp)
   file(CONFIGURE OUTPUT ${made} CONTENT "${translations}" @ONLY)
   set_source_files_properties(${made} PROPERTIES COMPILE_OPTIONS -Wno-overlength-strings)
-  target_sources(orb_${room} PRIVATE ${made})
+  target_sources(orb_${module} PRIVATE ${made})
 endfunction()

@@ -2,7 +2,7 @@
 
 #include "base/text/utf8.h"
 #include "compiler/text/image.h"
-#include "compiler/text/parse.h"
+#include "compiler/text/parse_basic.h"
 #include "compiler/text/rules.h"
 #include "compiler/text/texts.h"
 #include "repair/idioms.h"
@@ -16,7 +16,7 @@
 namespace orb::compiler {
 namespace {
 
-/// A NUL that is not at the end, or more control characters than any text has.
+/// True if the text has a NUL before its end, or more control characters than a text would have.
 bool is_binary(std::string_view text) {
   const auto last = text.find_last_not_of('\0');
   const auto content =
@@ -35,7 +35,7 @@ bool holds_program(const Program& program) {
                      [](const Line& line) { return line.has_number() || line.has_statement(); });
 }
 
-/// The words of the language; `roll` the sensor and `goroll` are two of them.
+/// All words of the language. `roll`, the sensor, and `goroll` are distinct words.
 std::vector<std::string_view> all_words() {
   std::vector<std::string_view> words{"then", "else", "and", "or", "to", "step"};
   for (const auto& row : spec::statements)
@@ -101,7 +101,7 @@ Checked check(std::string_view text, const Target& target) {
 }
 
 Fixed fix(std::string text, const Target& target) {
-  // What a fix leads to is judged without looking for repairs, which takes a hundred times as long.
+  // Check the results of a fix without searching for repairs, which takes a hundred times as long.
   return fix_all(
       std::move(text),
       [&target](std::string_view changed) { return check(changed, target).diagnostics; },

@@ -15,27 +15,26 @@ namespace orb::compiler {
 
 /// A source file after checking.
 struct Checked {
-  Program program; ///< refers to the text that was checked
+  Program program; ///< refers to the checked text
   std::vector<Diagnostic> diagnostics;
-  std::optional<std::size_t> image_bytes; ///< of the plain image; nothing where none can be built
+  std::optional<std::size_t> image_bytes; ///< size of the plain image; nothing if it cannot be
+                                          ///< built
 };
 
-/// Parses a whole file, without a check: the one finding says why it is no program at all (empty,
-/// binary or huge). `text` must outlive the result.
+/// Parses a whole file without checking it. Its only finding says why the file is not a program
+/// (empty, binary or huge). `text` must outlive the result.
 Checked read(std::string_view text);
 
-/// All that is to be said about a program that was read without a finding, with the lines to write.
+/// Returns all findings about a program that was read without a finding, with replacement lines.
 std::vector<Diagnostic> check(const Program& program, const Target& target);
 
-/// Both: first whether a file is a program, then every line of it.
+/// Reads and checks a file.
 Checked check(std::string_view text, const Target& target);
 
-/// What speaks against a whole text: it is binary, or larger than any program. Nothing for a text
-/// that can be looked into.
+/// Rejects a text that is binary, or larger than any program; returns nothing if it is acceptable.
 std::optional<Diagnostic> refuse_text(std::string_view text);
 
-/// Makes every safe fix, again and again until none is left: fixing the result changes nothing
-/// more.
+/// Applies the safe fixes until none is left, so that fixing the result changes nothing.
 Fixed fix(std::string text, const Target& target);
 
 } // namespace orb::compiler

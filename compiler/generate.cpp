@@ -5,7 +5,7 @@ namespace orb::compiler {
 Chunk Generator::run() {
   for (std::uint32_t i = 0; i < program_.lines.size(); ++i)
     if (program_.lines[i].has_number())
-      line_of_.try_emplace(program_.lines[i].number, i); // of duplicates the first counts, A-26
+      line_of_.try_emplace(program_.lines[i].number, i); // the first of duplicates counts, A-26
   begins_.assign(program_.lines.size() + 1, 0);
   for (std::uint32_t i = 0; i < program_.lines.size(); ++i) {
     const auto& line = program_.lines[i];
@@ -231,7 +231,7 @@ void Generator::print(std::span<const Item> items) {
       text(program_.text_of(item.span));
     } else if (item.kind == ItemKind::Comma) {
       emit(Op::PrintBlank);
-    } // of semicolons only the last one means something
+    } // only the last semicolon counts
   }
   emit(open ? Op::PrintOpen : Op::PrintLine);
 }
@@ -278,7 +278,7 @@ void Generator::perform(Statement kind, std::span<const Item> items) {
   const auto first = side_by_side(items);
   if (!first)
     return;
-  // Of no arguments the first is any register that there is.
+  // Without arguments, pass any valid register.
   emit(Op::Perform, static_cast<std::uint16_t>(kind), items.empty() ? std::uint16_t{0} : *first,
        static_cast<std::uint16_t>(items.size()));
 }

@@ -134,7 +134,7 @@ std::optional<std::uint16_t> Generator::value(std::uint32_t root) {
 
 void Generator::move(std::uint16_t to, std::uint16_t from) {
   if (is_temporary(from))
-    chunk_.code.back().a = to; // what was emitted last computed it
+    chunk_.code.back().a = to; // the last instruction computed it
   else
     emit(Op::Copy, to, from);
 }
@@ -167,7 +167,7 @@ bool Generator::compare(const Comparison& comparison) {
   const auto relation = relation_of(comparison);
   if (is_last(Op::RemainderByPower, left, here()) && constant_in(stack_.back()) == 0 &&
       (relation == Relation::Equal || relation == Relation::NotEqual)) {
-    auto& last = chunk_.code.back(); // the remainder is 0 where the low bits are
+    auto& last = chunk_.code.back(); // the remainder is 0 if the low bits are
     last = {Op::And, false, left, last.b, constant(*constant_in(last.c) - 1)};
   }
   return true;
@@ -191,7 +191,7 @@ void Generator::decide(const StatementNode& node) {
     emit(with_relation(either ? Op::WhenEqual : Op::UnlessEqual, first), stack_[0], stack_[1]);
   const std::uint32_t end =
       emit(with_relation(Op::UnlessEqual, last), stack_[stack_.size() - 2], stack_.back());
-  // `then goto` is part of the test where nothing else remains to be done.
+  // Fold `then goto` into the test if nothing else remains to be done.
   const bool jumps = !has_else && !either && then.kind == Statement::Goto && !then.error &&
                      lead_to(end, program_.as<BranchView>(then).target.value);
   const std::uint32_t then_part = here();

@@ -24,12 +24,12 @@ using spec::Operator;
 using spec::Relation;
 using spec::Statement;
 
-/// Registers of constants get their final number when the temporaries have been counted.
+/// Marks registers of constants. They get their final number once the temporaries are counted.
 inline constexpr std::uint16_t constant_mark = 0x8000;
-/// Of constants and of texts.
+/// Limit for constants and for texts.
 inline constexpr std::size_t most_registers = 0x7F00;
 
-/// The row of a relation among the four that begin with the one for `=`.
+/// Selects the row of a relation among the four that begin with the one for `=`.
 constexpr Op with_relation(Op equal, Relation relation) {
   return static_cast<Op>(static_cast<std::size_t>(equal) + static_cast<std::size_t>(relation));
 }
@@ -37,8 +37,9 @@ static_assert(with_relation(Op::UnlessEqual, Relation::Greater) == Op::UnlessGre
               with_relation(Op::WhenEqual, Relation::Less) == Op::WhenLess &&
               with_relation(Op::SelectEqual, Relation::NotEqual) == Op::SelectNotEqual);
 
-/// Emits instructions in the order of the text: whatever an expression does (fail, draw a random
-/// number, clear what it reads) happens where it is written.
+/// Emits instructions in text order: the side effects of an expression (failing, drawing a random
+/// number, clearing a sensor) happen where it is written. Large because each kind of statement and
+/// operation has its own member, and all of them share the code and the stack of registers.
 class Generator {
 public:
   explicit Generator(const Program& program) : program_(program) {}
@@ -51,20 +52,20 @@ private:
   std::uint32_t emit(Op op, std::uint16_t a = 0, std::uint16_t b = 0, std::uint16_t c = 0,
                      std::uint16_t d = 0);
 
-  /// The line ends with what was emitted last.
+  /// Ends the line at the last instruction.
   void end_line() { chunk_.code.back().ends_line = true; }
 
-  /// Leads instruction `at` to a line; false where there is none of that number.
+  /// Sets the target of instruction `at` to a line; returns false if there is no such line.
   bool lead_to(std::uint32_t at, std::uint32_t number);
 
   void resolve();
 
-  /// No text that fits a ball runs out of registers; of one that does, the line is a trap.
+  /// Replaces a line that runs out of registers by a trap. No program that fits into a ball does.
   void give_up(std::uint32_t begin);
 
   void trap(BasicError error) { emit(Op::Trap, spec::code(error)); }
 
-  // Registers. The stack holds those of the values that have been computed and not yet used.
+  // Registers. The stack holds those of computed values that are still in use.
 
   std::uint16_t constant(std::int32_t value);
 
@@ -72,14 +73,14 @@ private:
 
   static bool is_temporary(std::uint16_t index);
 
-  /// The temporary that belongs to a place on the stack: a value is in nobody's way there.
+  /// The temporary reserved for a stack position, so that no other value overwrites it.
   std::uint16_t temporary(std::size_t place);
 
   std::uint16_t pop();
 
   // Values.
 
-  /// Emits what computes the next value on the stack.
+  /// Emits the instruction that computes the next value on the stack.
   void compute(Op op, std::uint16_t b = 0, std::uint16_t c = 0, std::uint16_t d = 0);
 
   /// Combines the two topmost values.
@@ -87,23 +88,27 @@ private:
 
   void divide_by_constant(Op op, std::uint16_t left, std::uint16_t right, std::uint32_t divisor);
 
-  /// Where the value on the right was computed last: both operations in one instruction, if any.
+  /// Fuses two operations into one instruction if the right value was computed last. Returns true
+  /// if it did.
   bool join(Op op, std::uint16_t left, std::uint16_t right);
 
-  /// Whether a temporary has been computed by the last instruction before `end`, which is an `op`.
+  /// True if the last instruction before `end` is an `op` that computed the temporary.
   bool is_last(Op op, std::uint16_t to, std::uint32_t end) const;
 
   void negate();
 
-  /// The first node of the first level too many: it is noticed where that opens.
+  /// The first node of the first level that is too deep; the robot notices it where that level
+  /// opens.
   std::uint32_t too_deep(std::uint32_t root) const;
 
-  /// Computes an expression: its register, which is also put on the stack. Nothing when it traps.
+  /// Computes an expression into a register, pushes the register and returns it. Returns nothing if
+  /// it traps.
   std::optional<std::uint16_t> value(std::uint32_t root);
 
   void move(std::uint16_t to, std::uint16_t from);
 
-  /// Computes expressions into temporaries side by side: the first one; nothing when one traps.
+  /// Computes expressions into consecutive temporaries and returns the first. Returns nothing if
+  /// one traps.
   std::optional<std::uint16_t> side_by_side(std::span<const Item> items);
 
   bool is_leaf(std::uint32_t root) const;
@@ -112,13 +117,13 @@ private:
 
   void statement(const StatementNode& node);
 
-  /// Sets a variable to a value.
+  /// Assigns a value to a variable.
   void store(const Item& variable, std::uint16_t from);
 
   void assign(const LetView& let);
 
-  /// `if … then v = x else v = y` where x and y can neither fail nor be noticed: both are computed
-  /// and one is taken, so that the processor has no jump to guess.
+  /// Compiles `if … then v = x else v = y` without a jump if x and y can neither fail nor have side
+  /// effects: computes both and selects one, which spares the processor a branch prediction.
   bool select(const StatementNode& node, Relation relation, std::uint16_t left,
               std::uint16_t right);
 
@@ -132,13 +137,13 @@ private:
 
   static Relation relation_of(const Comparison& comparison);
 
-  /// Puts the registers of both sides on the stack. False when one traps.
+  /// Pushes the registers of both sides. Returns false if one traps.
   bool compare(const Comparison& comparison);
 
   void decide(const StatementNode& node);
 
-  /// Behind a `then` that has an `else`: what falls through goes on at the next line. The
-  /// instruction that leads there; none where nothing falls through.
+  /// Emits the jump over `else` after a `then` branch; returns the instruction, or none if nothing
+  /// falls through.
   std::uint32_t leave_branch();
 
   void print(std::span<const Item> items);
@@ -157,7 +162,8 @@ private:
   Chunk chunk_;
   std::unordered_map<std::uint32_t, std::uint32_t> line_of_;
   std::unordered_map<std::int32_t, std::uint16_t> constants_;
-  std::vector<std::uint32_t> begins_; ///< by line of the program: its instruction, or the next one
+  std::vector<std::uint32_t> begins_; ///< by line of the program: its instruction, or that of the
+                                      ///< next line
   std::vector<std::pair<std::uint32_t, std::uint32_t>> jumps_; ///< from instruction to line
   std::vector<std::uint16_t> stack_;
   bool overflow_ = false;

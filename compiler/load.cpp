@@ -1,14 +1,15 @@
 #include "compiler/load.h"
 
 #include "compiler/generate.h"
-#include "compiler/text/parse.h"
+#include "compiler/text/parse_basic.h"
 
 #include <optional>
 
 namespace orb::compiler {
 namespace {
 
-/// Whether an expression of the statement reads what came later. Its old name it had before.
+/// True if an expression of the statement uses a word added later than `language`. A former name of
+/// a variable was available before.
 bool reads_newer(const Program& program, const StatementNode& statement,
                  spec::BasicVersion language) {
   for (auto n = statement.nodes_begin; n < statement.nodes_end; ++n) {

@@ -63,8 +63,8 @@ private:
     return std::nullopt;
   }
 
-  /// The wake-up line belongs to the program in flash: a number that this program does not have is
-  /// left alone, as it names a line of another.
+  /// The wake-up line belongs to the program in flash. A number without a line in this program
+  /// refers to another program and stays.
   std::optional<Obstacle> follow_sleeps() {
     for (const auto& statement : program_.statements) {
       if (statement.error || statement.kind != spec::Statement::Sleep)

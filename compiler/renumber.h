@@ -19,9 +19,9 @@ struct Obstacle {
   std::string message;
 };
 
-/// Gives the lines new numbers in the order of the text and follows every goto, gosub, on and
-/// sleep. Refuses where a number could change its meaning: a line that does not parse, a jump to a
-/// line that does not exist, a computed wake-up line, a number beyond 65535.
+/// Renumbers the lines in text order and updates every goto, gosub, on and sleep. Fails if a number
+/// could change its meaning: on a line that does not parse, a jump to a missing line, a computed
+/// wake-up line, or a number beyond 65535.
 std::variant<std::string, Obstacle> renumber(const Program& program, Numbering numbering);
 
 } // namespace orb::compiler

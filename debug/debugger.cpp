@@ -71,16 +71,16 @@ bool Debugger::event(const vm::Event& event) {
   fault_ = run::explain(*input, error->line, error->code, &timeline_->ball().machine());
   if (!stop_at_faults_)
     return false;
-  found_ = {Stop::Reason::Fault, {}, fault_text(*fault_)};
+  found_ = {StopEvent::Reason::Fault, {}, fault_text(*fault_)};
   found_at_ = innermost();
   return true;
 }
 
 // --- going --------------------------------------------------------------------------------------
 
-Stop Debugger::go(Move move, Direction direction, Thread thread, const GiveUp& give_up) {
+StopEvent Debugger::go(Move move, Direction direction, Thread thread, const GiveUp& give_up) {
   if (direction == Direction::Back && timeline_->drives())
-    return {Stop::Reason::Robot, {}, std::string(no_way_back)};
+    return {StopEvent::Reason::Robot, {}, std::string(no_way_back)};
   move_ = move;
   direction_ = direction;
   thread_ = thread;
@@ -92,7 +92,7 @@ Stop Debugger::go(Move move, Direction direction, Thread thread, const GiveUp& g
   return run(give_up);
 }
 
-/// Whether the way that is being gone stops at another level of the line that is about to run.
+/// True if the current move stops at another level of the line that is about to run.
 bool Debugger::stops_within_line() {
   const auto* here = program_line();
   if (here == nullptr || timeline_->next() != Timeline::Next::Line)
@@ -112,7 +112,7 @@ bool Debugger::stops_within_line() {
   return false;
 }
 
-Stop Debugger::go_until(Duration time, const GiveUp& give_up) {
+StopEvent Debugger::go_until(Duration time, const GiveUp& give_up) {
   move_ = Move::Continue;
   direction_ = Direction::Forward;
   until_ = time;
@@ -122,11 +122,11 @@ Stop Debugger::go_until(Duration time, const GiveUp& give_up) {
   return run(give_up);
 }
 
-Stop Debugger::resume(const GiveUp& give_up) {
+StopEvent Debugger::resume(const GiveUp& give_up) {
   return run(give_up);
 }
 
-Stop Debugger::run(const GiveUp& give_up) {
+StopEvent Debugger::run(const GiveUp& give_up) {
   const auto halt = direction_ == Direction::Forward
                         ? timeline_->forward(*this, until_, give_up, how_)
                         : timeline_->back(*this, give_up);
@@ -136,24 +136,24 @@ Stop Debugger::run(const GiveUp& give_up) {
   return stop_of(halt);
 }
 
-Stop Debugger::stop_of(Halt halt) {
+StopEvent Debugger::stop_of(Halt halt) {
   stand(innermost());
   switch (halt) {
   case Halt::Found:
     stand(direction_ == Direction::Forward ? found_at_ : noted_at_);
     return direction_ == Direction::Forward ? found_ : noted_;
-  case Halt::Time: return {Stop::Reason::Time, {}, {}};
-  case Halt::GivenUp: return {Stop::Reason::GivenUp, {}, {}};
-  case Halt::Lost: return {Stop::Reason::Robot, {}, timeline_->lost()->message};
+  case Halt::Time: return {StopEvent::Reason::Time, {}, {}};
+  case Halt::GivenUp: return {StopEvent::Reason::GivenUp, {}, {}};
+  case Halt::Lost: return {StopEvent::Reason::Robot, {}, timeline_->lost()->message};
   case Halt::Over: break;
   }
   if (direction_ == Direction::Back) {
     stand_outermost();
-    return {Stop::Reason::Begin, {}, {}};
+    return {StopEvent::Reason::Begin, {}, {}};
   }
   if (timeline_->waits_for_number())
-    return {Stop::Reason::Input, {}, {}};
-  return {Stop::Reason::End, {}, fault_ ? fault_text(*fault_) : std::string()};
+    return {StopEvent::Reason::Input, {}, {}};
+  return {StopEvent::Reason::End, {}, fault_ ? fault_text(*fault_) : std::string()};
 }
 
 tl::expected<void, std::string> Debugger::restart() {
@@ -170,7 +170,7 @@ tl::expected<void, std::string> Debugger::restart() {
   return {};
 }
 
-/// At the beginning of the run: before the calls that the first line is for.
+/// Stops at the beginning of the run, before the calls that the first line belongs to.
 void Debugger::stand_outermost() {
   const bool is_line = program_line() != nullptr && timeline_->next() == Timeline::Next::Line;
   stand(is_line ? Levels{0, 0} : innermost());
@@ -256,8 +256,8 @@ Thread Debugger::thread() const {
   return !runs(Thread::Program) && runs(Thread::Macro) ? Thread::Macro : Thread::Program;
 }
 
-std::vector<Frame> Debugger::frames(Thread thread) const {
-  std::vector<Frame> all;
+std::vector<StackFrame> Debugger::frames(Thread thread) const {
+  std::vector<StackFrame> all;
   const auto& ball = timeline_->ball();
   if (!runs(thread))
     return all;
@@ -281,7 +281,7 @@ std::vector<Frame> Debugger::frames(Thread thread) const {
   const auto* here = program_line();
   add(robot_line(), here == nullptr ? 0 : here->levels.size() - 1 - stands().at, depth == 0);
   for (auto i = depth; i-- > 0;) {
-    // The call stands in the line before the one that it returns to.
+    // The call is on the line before the one it returns to.
     const auto back = core.frames.calls[i];
     const auto& lines = core.chunk.lines;
     const auto after = std::lower_bound(

@@ -16,17 +16,17 @@
 #include <tl/expected.hpp>
 #include <vector>
 
-// What debuggers have in common, whether an editor or a person at a terminal speaks to them:
-// breakpoints, stepping by lines of the source, frames, variables by their names.
+// The debugger behind both the editor adapter and the terminal: breakpoints, stepping by source
+// lines, frames, variables by name.
 
 namespace orb::debug {
 
-/// Why a run on a robot is not gone back.
+/// Why a run on a robot cannot go back.
 inline constexpr std::string_view no_way_back =
     "a robot cannot run backwards: set an earlier breakpoint and start again, or omit the "
     "port";
 
-/// Who runs. A ball has both at once.
+/// What runs. A ball can run both at once.
 enum class Thread : std::uint8_t { Program, Macro };
 
 enum class Move : std::uint8_t {
@@ -41,66 +41,68 @@ enum class Direction : std::uint8_t { Forward, Back };
 /// What a breakpoint waits for.
 struct Breakpoint {
   enum class Kind : std::uint8_t {
-    Line,      ///< the line `spot` is about to run
+    Line,      ///< the line at `spot` is about to run
     Sub,       ///< the sub `text` begins
-    Change,    ///< the value of `expression` has changed
-    Condition, ///< `expression` has become true
+    Change,    ///< the value of `expression` changed
+    Condition, ///< `expression` became true
   };
   Kind kind = Kind::Line;
   int id = 0;
-  std::vector<Spot> spots;              ///< Line, Sub; none: it can never be reached
+  std::vector<Spot> spots;              ///< Line, Sub; empty: can never be reached
   std::optional<Expression> expression; ///< Change, Condition
   std::optional<Expression> only_if;
-  HitCondition which;   ///< of its hits count; forward only
-  std::string log;      ///< said in place of stopping, with `{expression}` filled in
-  std::string text;     ///< as it was asked for
-  bool by_name = false; ///< Sub: waits until that name begins; else for `spots`
+  HitCondition which;   ///< which hits count; only going forward
+  std::string log;      ///< printed in place of stopping, with `{expression}` filled in
+  std::string text;     ///< as the user wrote it
+  bool by_name = false; ///< Sub: matches by name; otherwise by `spots`
   std::uint64_t hits = 0;
 };
 
-/// Why a run stands still, and what is to be said of it.
-struct Stop {
+/// Why a run stopped, and details to report.
+struct StopEvent {
   enum class Reason : std::uint8_t {
     Step,
     Breakpoint,
     Fault, ///< the robot's error: `text`
-    Time,  ///< the instant that was asked for
-    Input, ///< it waits for a number
+    Time,  ///< the requested time was reached
+    Input, ///< waits for a number
     End,
-    Begin,   ///< going back, it came to its beginning
-    GivenUp, ///< it is to go on when there is time again: resume()
-    Robot,   ///< the robot that is driven cannot do that, or is lost: `text`
+    Begin,   ///< reached the beginning while going back
+    GivenUp, ///< interrupted: continue with resume()
+    Robot,   ///< the driven robot cannot do this, or is lost: `text`
   };
   Reason reason = Reason::Step;
-  std::vector<int> breakpoints; ///< that were hit
-  std::string text;             ///< `turns: 3, was 2`; of a fault its message
+  std::vector<int> breakpoints; ///< the ones that were hit
+  std::string text;             ///< `turns: 3, was 2`; for a fault its message
 };
 
-struct Frame {
-  std::string name; ///< of the sub; of a macro
+struct StackFrame {
+  std::string name; ///< of the sub, or of a macro
   std::optional<Spot> spot;
-  int number = 0; ///< the robot's line, or the command
+  int number = 0; ///< of the robot's line, or of the command
 };
 
-/// A value with its name.
+/// A named value.
 struct Variable {
   std::string name;
   std::string value;
-  std::string note = {};                     ///< the letter; the unit
-  std::optional<std::size_t> register_ = {}; ///< where it can be changed
+  std::string note = {};                     ///< its letter or unit
+  std::optional<std::size_t> register_ = {}; ///< set if it can be changed
 };
 
-/// Hears what is to be printed while a run goes on.
+/// Receives what is printed during a run.
 class Console {
 public:
   virtual ~Console() = default;
-  virtual void print(std::string_view text) = 0; ///< what the program prints
-  virtual void say(std::string_view text) = 0;   ///< what the debugger says: a line
+  virtual void print(std::string_view text) = 0; ///< output of the program
+  virtual void say(std::string_view text) = 0;   ///< a line from the debugger
 };
 
+/// Stops a run, shows its state and changes it. Large because the editor adapter and the terminal
+/// use the same interface, with a member for everything that one of them shows or changes.
 class Debugger final : Audience, Watch, Meaning {
 public:
-  /// Inputs, options, console and the robot, which may be null, outlive it.
+  /// Inputs, options, console and robot must outlive it; the robot may be null.
   static tl::expected<std::unique_ptr<Debugger>, Failure> start(std::span<const run::Input> inputs,
                                                                 const run::Options& options,
                                                                 Console& console,
@@ -111,37 +113,37 @@ public:
   Timeline& timeline() { return *timeline_; }
   const Timeline& timeline() const { return *timeline_; }
 
-  /// An expression to wait for; a sentence where it is none, or no name of the program.
+  /// Parses an expression to wait for; fails with a sentence for invalid ones and unknown names.
   tl::expected<Expression, std::string> expression(std::string_view text) const;
 
-  // Breakpoints. An id is never given twice.
+  // Breakpoints. Ids are never reused.
   Breakpoint& add(Breakpoint breakpoint);
-  /// False where there is none.
+  /// Returns false for an unknown id.
   bool remove(int id);
   void remove_all(Breakpoint::Kind kind, std::optional<std::uint32_t> file = std::nullopt);
   const std::vector<Breakpoint>& breakpoints() const { return breakpoints_; }
   void stop_at_faults(bool stop) { stop_at_faults_ = stop; }
 
-  // Going.
-  Stop go(Move move, Direction direction, Thread thread, const GiveUp& give_up);
-  Stop go_until(Duration time, const GiveUp& give_up);
-  /// Goes on with what was given up.
-  Stop resume(const GiveUp& give_up);
-  /// Back to before the first step; a sentence where it cannot be.
+  // Running.
+  StopEvent go(Move move, Direction direction, Thread thread, const GiveUp& give_up);
+  StopEvent go_until(Duration time, const GiveUp& give_up);
+  /// Continues an interrupted move.
+  StopEvent resume(const GiveUp& give_up);
+  /// Goes back to the beginning; fails with a sentence if impossible.
   tl::expected<void, std::string> restart();
-  /// The program goes on at a line of the source; false where nothing begins there.
+  /// Moves execution to a source line; returns false if no code begins there.
   bool jump(Spot spot);
 
-  // Looking.
-  Thread thread() const; ///< the one that is about to go on
+  // Inspecting.
+  Thread thread() const; ///< the thread that runs next
   bool runs(Thread thread) const;
-  std::vector<Frame> frames(Thread thread) const;
-  /// The line that is about to run, or waits; the one where it failed.
+  std::vector<StackFrame> frames(Thread thread) const;
+  /// The line that is about to run or waits; after a fault, the line of the fault.
   std::optional<Spot> spot() const;
   tl::expected<std::int32_t, std::string> evaluate(std::string_view text) const;
-  /// What an expression may name, here or elsewhere in the run.
+  /// The names that expressions may use, here or elsewhere in the run.
   std::vector<std::string_view> names() const;
-  /// What the program looks for and nobody brings about, the user included.
+  /// What the program waits for that neither the stimuli nor the user provide.
   std::optional<run::Want> want() const;
   std::vector<Variable> variables() const;
   std::vector<std::string> arrays() const;
@@ -149,10 +151,10 @@ public:
   std::vector<Variable> sensors() const;
   std::vector<Variable> ball() const;
   std::vector<Variable> limits() const;
-  /// The fault that ended the run, as of now.
+  /// The fault that ended the run at the current moment.
   const std::optional<run::ProgramError>& fault() const { return fault_; }
 
-  // Changing. False, or a sentence, where it cannot be.
+  // Changing. False or a sentence means it is impossible.
   tl::expected<std::int32_t, std::string> set(std::string_view name, std::string_view value);
   bool give_number(std::int32_t value);
   tl::expected<void, std::string> happen(const vm::Stimulus& stimulus);
@@ -179,26 +181,26 @@ private:
   std::optional<std::int32_t> element(std::string_view name, std::int32_t index) const override;
   std::int32_t sensor(spec::Variable variable) const override;
 
-  Stop run(const GiveUp& give_up);
-  Stop stop_of(Halt halt);
-  /// How deep in calls something is: those of the robot, then those of the source within the last.
+  StopEvent run(const GiveUp& give_up);
+  StopEvent stop_of(Halt halt);
+  /// Call depth: calls of the robot, then calls of the source inlined in the last one.
   struct Depth {
     std::size_t calls = 0;
     std::size_t level = 0;
     friend auto operator<=>(const Depth&, const Depth&) = default;
   };
-  /// Where a line of the robot that begins subs of the source can be stood before: at the call of
-  /// each, and at last at the line itself.
+  /// The levels at which the run can stop before a robot line that begins source subs: at each
+  /// call, and last at the line itself.
   struct Levels {
-    std::size_t first = 0; ///< the outermost at which it can
-    std::size_t at = 0;    ///< at which it does
+    std::size_t first = 0; ///< outermost possible level
+    std::size_t at = 0;    ///< current level
   };
 
   const Sources::Line* program_line() const;
   Levels innermost() const;
   std::size_t calls(Thread thread) const;
   Depth depth(Thread thread) const;
-  int robot_line() const; ///< that is about to run, waits, or has failed
+  int robot_line() const; ///< the line that is about to run, waits, or failed
   std::size_t first_new(const Sources::Line& line) const;
   bool stops_at(const Sources::Line& line, std::size_t level, std::size_t first_new);
   bool goes_on(const Sources::Line& line, std::size_t level) const;
@@ -223,27 +225,27 @@ private:
   std::vector<Breakpoint> breakpoints_;
   int next_id_ = 1;
   bool stop_at_faults_ = true;
-  bool is_helped_ = false; ///< the user has made something happen
+  bool is_helped_ = false; ///< the user has caused an event
   std::unique_ptr<Timeline> timeline_;
   std::optional<run::ProgramError> fault_;
 
-  // The way that is being gone.
+  // The current move.
   Move move_ = Move::Continue;
   Direction direction_ = Direction::Forward;
   Thread thread_ = Thread::Program;
   Depth from_depth_;
   Duration until_ = Duration::max();
   Timeline::How how_ = Timeline::How::Begins;
-  std::optional<Duration> moving_at_;  ///< the time of the motion that is being looked at
-  std::map<int, std::int64_t> values_; ///< of Change and Condition, by id
-  Stop found_;
-  Stop noted_;      ///< the same, going back
-  Levels found_at_; ///< of found_
-  Levels noted_at_; ///< of noted_
+  std::optional<Duration> moving_at_;  ///< time of the motion step being checked
+  std::map<int, std::int64_t> values_; ///< of Change and Condition, by breakpoint id
+  StopEvent found_;
+  StopEvent noted_; ///< the same for going back
+  Levels found_at_; ///< belongs to found_
+  Levels noted_at_; ///< belongs to noted_
   Levels stands_;   ///< at `stands_when_`; later the innermost
   Moment stands_when_;
-  const Sources::Line* before_ = nullptr; ///< the line that ran before; null: not known
-  std::size_t calls_before_ = 0;          ///< open calls of the robot then
+  const Sources::Line* before_ = nullptr; ///< the previous line; null if unknown
+  std::size_t calls_before_ = 0;          ///< open calls of the robot at that line
 };
 
 } // namespace orb::debug

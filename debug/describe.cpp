@@ -1,4 +1,4 @@
-// What a debugger shows of a run that stands still, as names and values.
+// Describes a stopped run as names and values.
 
 #include "debug/debugger.h"
 #include "run/start.h"
@@ -10,7 +10,7 @@
 namespace orb::debug {
 namespace {
 
-/// The letters that a program with line numbers mentions.
+/// The letters that a program with line numbers uses.
 std::vector<std::size_t> letters_in(const compiler::Program& program) {
   std::vector<std::size_t> found;
   for (const auto& node : program.nodes)

@@ -3,7 +3,7 @@
 #include "base/render.h"
 #include "base/text/text.h"
 #include "bytecode/arithmetic.h"
-#include "structured/text/parse.h"
+#include "structured/text/parse_structured.h"
 
 #include <algorithm>
 #include <cmath>
@@ -17,7 +17,7 @@ using structured::Node;
 using structured::NodeKind;
 using Value = tl::expected<std::int32_t, std::string>;
 
-constexpr std::string_view lead = "print "; ///< takes conditions, one after the other
+constexpr std::string_view lead = "print "; ///< `print` accepts several conditions in a row
 
 class Evaluator {
 public:

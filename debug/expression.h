@@ -13,32 +13,32 @@
 
 namespace orb::debug {
 
-/// What the names of an expression stand for at a moment of a run.
+/// Looks up the names of an expression at a moment of a run.
 class Meaning {
 public:
   virtual ~Meaning() = default;
-  /// Nothing where there is no such variable now.
+  /// Returns nothing if there is no such variable at this moment.
   virtual std::optional<std::int32_t> variable(std::string_view name) const = 0;
-  /// Why there is none: a sentence.
+  /// Says why there is none, in a sentence.
   virtual std::string missing(std::string_view name) const = 0;
-  /// The value of an element, from 1; nothing where there is none.
+  /// The value of an element, counted from 1; nothing if there is none.
   virtual std::optional<std::int32_t> element(std::string_view name, std::int32_t index) const = 0;
   virtual std::int32_t sensor(spec::Variable variable) const = 0;
 };
 
-/// An expression or a condition as structured programs have them, over variables, sensors and
-/// `time`. It only looks: it changes nothing and draws no random numbers.
+/// An expression or condition in the syntax of structured programs, over variables, sensors and
+/// `time`. Evaluating it has no side effects and draws no random numbers.
 class Expression {
 public:
-  /// What is wrong with it is a sentence.
+  /// Fails with a sentence.
   static tl::expected<Expression, std::string> parse(std::string_view text);
 
   const std::string& text() const { return text_; }
-  /// Whether it is true or false, not a number.
+  /// True if its value is true or false, not a number.
   bool is_condition() const { return program_->nodes[root_].is_condition(); }
-  /// The names in it that the program gives a meaning.
+  /// The names in it that have to be looked up.
   std::vector<std::string_view> names() const;
-  /// Its value; 1 and 0 of a condition. What keeps it from having one is a sentence.
+  /// Evaluates it; a condition gives 1 or 0. Fails with a sentence.
   tl::expected<std::int32_t, std::string> value(const Meaning& meaning) const;
 
 private:

@@ -14,7 +14,7 @@ struct Sign {
   HitCondition::Test test;
 };
 
-/// Longer signs before those that they begin with.
+/// Longer operators before their prefixes.
 constexpr auto signs = std::to_array<Sign>({
     {">=", HitCondition::Test::AtLeast},
     {"<=", HitCondition::Test::AtMost},

@@ -7,15 +7,15 @@
 
 namespace orb::debug {
 
-/// Which hits of a breakpoint count, the first being 1.
+/// Which hits of a breakpoint count; the first is 1.
 struct HitCondition {
   enum class Test : std::uint8_t { AtLeast, MoreThan, Exactly, AtMost, LessThan, Every };
   Test test = Test::AtLeast;
   std::uint64_t number = 1;
 
   bool holds(std::uint64_t hit) const;
-  /// `3` and `>= 3`, `> 3`, `== 3` and `= 3`, `<= 3`, `< 3`, `% 3` for each third; all of them for
-  /// nothing. What is wrong is a sentence.
+  /// Parses `3` and `>= 3`, `> 3`, `== 3` and `= 3`, `<= 3`, `< 3`, or `% 3` for every third hit;
+  /// an empty text means all. Fails with a sentence.
   static tl::expected<HitCondition, std::string> parse(std::string_view text);
 };
 

@@ -14,7 +14,7 @@ tl::unexpected<Failure> failed(ExitCode code, std::string message) {
   return tl::unexpected(Failure{code, std::move(message)});
 }
 
-/// The errors among findings with their places, a line each.
+/// The errors among findings, with places, one per line.
 std::string errors_of(const Source& source, const std::vector<Diagnostic>& found) {
   std::string all;
   for (const auto& one : found)
@@ -114,8 +114,8 @@ tl::expected<void, Failure> read_test(const Launch& launch, structured::Files& f
     return failed(ExitCode::BadInput, fmt::format("{} contains no tests", launch.test));
   const auto& group = made.suite->groups.front();
   const auto& program = made.suite->programs[group.program];
-  if (!program.problem.empty())
-    return failed(ExitCode::BadInput, program.problem.substr(0, program.problem.find('\n')));
+  if (const auto& obstacle = program.obstacle(); !obstacle.empty())
+    return failed(ExitCode::BadInput, obstacle.substr(0, obstacle.find('\n')));
   made.inputs = program.inputs;
   made.options = testing::options_of(*made.suite, group, launch.seed.value_or(group.seeds.first));
   return {};

@@ -11,10 +11,10 @@ using compiler::ItemKind;
 using compiler::StatementNode;
 using spec::Statement;
 
-/// Nothing was put there on any way so far: gives way to whatever another way put there.
+/// No assignment on any path so far: merges with any other state.
 constexpr std::uint32_t untouched = structured::none - 1;
 
-/// Follows what letters hold through a compiled program.
+/// Data flow analysis: tracks what letters hold in a compiled program.
 class Flow {
 public:
   explicit Flow(const run::Program& program)
@@ -83,7 +83,7 @@ private:
     link_loops();
   }
 
-  /// A `next` goes back to after any `for` of its letter that stands before it.
+  /// A `next` jumps back to the line after any earlier `for` of its letter.
   void link_loops() {
     for (const auto line : loops_)
       for (std::size_t begin = 0; begin < line; ++begin)
@@ -91,7 +91,7 @@ private:
           next_[line].push_back(begin + 1);
   }
 
-  /// What letters hold after a line.
+  /// The letters' contents after a line.
   Holders leave(std::size_t line) const {
     auto holders = *before_[line];
     const auto number = program_.lines[lines_[line]].number;
@@ -102,7 +102,7 @@ private:
     return holders;
   }
 
-  /// The symbol that the line knows the letter by; none for a temporary.
+  /// The symbol that the line uses for the letter; none for a temporary.
   std::uint32_t named(std::uint32_t number, std::uint32_t letter) const {
     const auto found = std::lower_bound(
         robot_.lines.begin(), robot_.lines.end(), number,
@@ -131,7 +131,7 @@ private:
     return changed;
   }
 
-  /// With the names that a line itself has for what it reads.
+  /// Adds the names that a line itself reads.
   std::map<std::uint32_t, Holders> result() const {
     std::map<std::uint32_t, Holders> all;
     for (std::size_t line = 0; line < lines_.size(); ++line) {
@@ -152,7 +152,7 @@ private:
 
   const compiler::Program& program_;
   const structured::RobotText& robot_;
-  std::vector<std::uint32_t> lines_; ///< those that run, as indices into the program's
+  std::vector<std::uint32_t> lines_; ///< reachable lines, as indices into the program's
   std::map<std::uint32_t, std::size_t> index_;
   std::vector<std::vector<std::size_t>> next_;
   std::vector<std::size_t> loops_;

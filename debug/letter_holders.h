@@ -10,13 +10,13 @@
 namespace orb::debug {
 
 inline constexpr auto letters = spec::letter_count;
-/// Of each letter a symbol of the structured program, or structured::none.
+/// The symbol of the structured program in each letter, or structured::none.
 using Holders = std::array<std::uint32_t, letters>;
 
-/// Which variable of the source each letter holds just before a line of the robot, by the line's
-/// number; structured::none where nothing was put there yet, or it depends on the way. A letter
-/// serves several variables, one after the other, so this follows every way that the program can
-/// take. Empty where the letters are the names.
+/// The source variable in each letter just before a line of the robot, by line number.
+/// structured::none if nothing was assigned yet, or it depends on the path. Several variables share
+/// a letter over time, so this follows every path of the program. Empty for programs whose letters
+/// are the names.
 std::map<std::uint32_t, Holders> letter_holders(const run::Program& program);
 
 } // namespace orb::debug

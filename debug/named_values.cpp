@@ -1,4 +1,4 @@
-// What the names of a program stand for in the ball: its variables, elements and constants.
+// Looks up the names of a program in the ball: variables, elements and constants.
 
 #include "debug/debugger.h"
 
@@ -14,9 +14,9 @@ namespace {
 
 constexpr std::string_view time_word = "time";
 constexpr std::string_view letter_words = "ABCDEFGHIJKLMNOPQRSTUVWXYZ";
-constexpr std::string_view array_word = "Z"; ///< of programs with line numbers
+constexpr std::string_view array_word = "Z"; ///< in programs with line numbers
 
-/// A letter's number where the name is one: A is 0, Y is 24.
+/// The index of a letter: A is 0, Y is 24; nothing for other names.
 std::optional<std::size_t> letter_of(std::string_view name) {
   if (name.size() != 1)
     return std::nullopt;
@@ -25,7 +25,7 @@ std::optional<std::size_t> letter_of(std::string_view name) {
   return letter < letters ? std::optional(letter) : std::nullopt;
 }
 
-/// The symbol of a structured program that has that name, and is what is looked for; or null.
+/// The symbol of that name in a structured program for which `is` is true; null if there is none.
 template <class Is>
 const structured::Symbol* symbol_called(const structured::Compiled& compiled, std::string_view name,
                                         Is is) {

@@ -10,9 +10,9 @@ namespace {
 
 constexpr int columns = 60;
 constexpr int rows = 20;
-constexpr double wider_than_high = 2; ///< of a character
+constexpr double wider_than_high = 2; ///< aspect ratio of a character
 
-/// A field of characters over a part of the plane.
+/// A grid of characters that covers a part of the plane.
 class Field {
 public:
   explicit Field(const std::vector<vm::Point>& points) {
@@ -46,7 +46,7 @@ public:
     for (int i = 0; i <= steps; ++i)
       put({from.x + (to.x - from.x) * i / steps, from.y + (to.y - from.y) * i / steps}, what);
   }
-  /// An endless wall through the field.
+  /// Draws an infinite wall across the grid.
   void wall(const vm::Wall& wall) {
     const double right = left_ + scale_ * width_;
     const double top = bottom_ + scale_ * wider_than_high * static_cast<double>(lines_.size());
@@ -76,7 +76,7 @@ private:
   double bottom_ = 0;
   double scale_ = 1;
   int width_ = 1;
-  std::vector<std::string> lines_; ///< the lowest first
+  std::vector<std::string> lines_; ///< from bottom to top
 };
 
 } // namespace

@@ -6,8 +6,8 @@
 
 namespace orb::debug {
 
-/// The path in characters: `S` where it began, `O` where the ball is, `.` its way, `#` walls. One
-/// character is as many centimetres to the right as the last line says, and twice as many ahead.
+/// Draws the path in characters: `S` the start, `O` the ball, `.` its path, `#` walls. The last
+/// line gives the width of a character in centimetres; it covers twice as much ahead.
 std::string picture(const report::Journey& journey);
 
 } // namespace orb::debug

@@ -1,6 +1,6 @@
 #pragma once
 
-// What the parts of the timeline share. Private to timeline*.cpp.
+// Shared by the parts of the timeline. Private to timeline*.cpp.
 
 #include "debug/timeline.h"
 
@@ -11,10 +11,10 @@
 
 namespace orb::debug {
 
-/// Questions between two looks at whether the search is still wanted.
+/// How many queries go by between two calls of GiveUp.
 inline constexpr std::uint32_t questions_between_looks = 1 << 14;
 
-/// A ball as it was at a moment, and what the timeline had counted by then.
+/// A snapshot of the ball and of the timeline's counters.
 struct Timeline::Copy {
   Moment at;
   std::unique_ptr<vm::Ball> ball;
@@ -23,21 +23,22 @@ struct Timeline::Copy {
   std::size_t applied = 0;
 };
 
-/// One way through a run.
+/// One pass through a run.
 struct Timeline::Search {
-  Watch* watch = nullptr;                 ///< null: nothing is looked for
-  const GiveUp* give_up = nullptr;        ///< null: never
-  std::optional<Moment> bound = {};       ///< where it ends
-  Instant until = never;                  ///< the same as a time
-  std::optional<std::uint64_t> skip = {}; ///< the step that it stands before and does not find
-  std::optional<Moment> gather_to = {};   ///< finds before this are noted, and it goes on
+  Watch* watch = nullptr;                 ///< null: searches for nothing
+  const GiveUp* give_up = nullptr;        ///< null: cannot be interrupted
+  std::optional<Moment> bound = {};       ///< where to stop
+  Instant until = never;                  ///< where to stop, as a time
+  std::optional<std::uint64_t> skip = {}; ///< step to ignore: the search starts before it
+  std::optional<Moment> gather_to = {};   ///< records finds before this moment and goes on
 
-  // What has come of it.
+  // Results.
   bool at_bound = false;
   bool found = false;
-  bool closed = false;          ///< nothing may begin any more
-  std::optional<Instant> hit{}; ///< an event was found; where the run stands then is still open
-  std::optional<Moment> last{}; ///< the last find that was noted
+  bool closed = false; ///< nothing may begin any more
+  /// time of a found event; the run may go on to the end of that instant
+  std::optional<Instant> hit{};
+  std::optional<Moment> last{}; ///< last recorded find
   std::uint32_t questions = 0;
 
   void note(const Moment& moment) {

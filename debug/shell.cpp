@@ -97,7 +97,7 @@ std::span<const Shell::Row> Shell::rows() {
   return table;
 }
 
-/// The command of that name, or the first that begins so.
+/// The command with this name, or the first with this prefix.
 const Shell::Row* Shell::find(std::string_view word) const {
   const Row* found = nullptr;
   for (const auto& row : rows()) {
@@ -135,7 +135,8 @@ void Shell::go(std::string_view, const GiveUp& give_up) {
   report(debugger_.go(move, direction, debugger_.thread(), give_up));
 }
 
-/// A program that waits for what nobody brings runs for ever; so after a while it is said.
+/// A program that waits for something nobody provides would run forever: reports that after a
+/// while.
 void Shell::go_on(std::string_view, const GiveUp& give_up) {
   constexpr Duration patience = std::chrono::seconds{60};
   const auto want = debugger_.want();
@@ -143,7 +144,7 @@ void Shell::go_on(std::string_view, const GiveUp& give_up) {
     return report(debugger_.go(Move::Continue, Direction::Forward, debugger_.thread(), give_up));
   const auto stop = debugger_.go_until(debugger_.timeline().time() + patience, give_up);
   report(stop);
-  if (stop.reason == Stop::Reason::Time)
+  if (stop.reason == StopEvent::Reason::Time)
     console_.say(fmt::format("{}; type `{}`, then `c`", want->lack, want->event));
 }
 
@@ -167,27 +168,27 @@ void Shell::again(std::string_view, const GiveUp&) {
   show_place();
 }
 
-void Shell::report(const Stop& stop) {
+void Shell::report(const StopEvent& stop) {
   switch (stop.reason) {
-  case Stop::Reason::Step:
-  case Stop::Reason::Time: break;
-  case Stop::Reason::Breakpoint:
+  case StopEvent::Reason::Step:
+  case StopEvent::Reason::Time: break;
+  case StopEvent::Reason::Breakpoint:
     console_.say(fmt::format("breakpoint {}{}{}", stop.breakpoints.front(),
                              stop.text.empty() ? "" : ": ", stop.text));
     break;
-  case Stop::Reason::Fault: console_.say(fmt::format("error: {}", stop.text)); break;
-  case Stop::Reason::GivenUp:
+  case StopEvent::Reason::Fault: console_.say(fmt::format("error: {}", stop.text)); break;
+  case StopEvent::Reason::GivenUp:
     debugger_.timeline().hold();
     console_.say("interrupted");
     break;
-  case Stop::Reason::Robot: return wrong(stop.text);
-  case Stop::Reason::Input: console_.say("waiting for a number: `input 42`"); break;
-  case Stop::Reason::End:
+  case StopEvent::Reason::Robot: return wrong(stop.text);
+  case StopEvent::Reason::Input: console_.say("waiting for a number: `input 42`"); break;
+  case StopEvent::Reason::End:
     if (!stop.text.empty())
       console_.say(fmt::format("error: {}", stop.text));
     console_.say(ending_of(debugger_) + (debugger_.timeline().drives() ? "" : "; `rs` goes back"));
     return;
-  case Stop::Reason::Begin: console_.say("this is where the run began"); break;
+  case StopEvent::Reason::Begin: console_.say("this is where the run began"); break;
   }
   show_place();
 }
@@ -203,7 +204,7 @@ void Shell::show_place() {
 
 // --- breakpoints --------------------------------------------------------------------------------
 
-/// `12`, or `hall.orb:12`, snapped to a line that runs.
+/// Reads `12` or `hall.orb:12` and moves it to a line with code.
 std::optional<Spot> Shell::spot_of(std::string_view text) const {
   const auto& sources = debugger_.sources();
   std::uint32_t file = debugger_.spot() ? debugger_.spot()->file : sources.main_file();
@@ -219,7 +220,7 @@ std::optional<Spot> Shell::spot_of(std::string_view text) const {
   return runs ? std::optional(Spot{file, *runs}) : std::nullopt;
 }
 
-/// Why nothing can stop at `text`.
+/// Why there is no place to stop at `text`.
 std::string Shell::no_place(std::string_view text) const {
   const auto colon = text.rfind(':');
   if (colon != std::string_view::npos && !debugger_.sources().file(text.substr(0, colon)))

@@ -8,42 +8,42 @@
 #include <string_view>
 #include <tl/expected.hpp>
 
-// The debugger as words: what a person types, and what comes back.
+// The debugger's command line: commands in, text out.
 
 namespace orb::debug {
 
-/// The word that a line begins with, and the rest of it without blanks around.
+/// The first word of a line, and the rest without surrounding blanks.
 struct Split {
   std::string_view word;
   std::string_view rest;
 };
 Split split(std::string_view line);
 
-/// What a line that changes something led to: `set`, `input`, and what happens to the ball
-/// (`shake`, `push 90 120`). Nothing where the line is none of these.
+/// Runs a line that changes something: `set`, `input`, or an event for the ball (`shake`, `push 90
+/// 120`). Returns the result; nothing for other lines.
 std::optional<tl::expected<std::string, std::string>> change_by_words(Debugger& debugger,
                                                                       std::string_view line);
 
-/// How a run ended, in a sentence.
+/// Describes in a sentence how a run ended.
 std::string ending_of(const Debugger& debugger);
 
-/// Commands in, text out.
+/// Commands in, text out. Large because each command is a member, listed in one table.
 class Shell {
 public:
-  /// Writes a file that a command names; what failed is a sentence.
+  /// Writes a file that a command names; fails with a sentence.
   using Write = std::function<tl::expected<void, std::string>(const std::string& name,
                                                               std::string_view text)>;
   Shell(Debugger& debugger, Console& console, Write write);
 
-  /// Does what a line says; an empty one repeats a step.
+  /// Runs a command line; an empty one repeats a step.
   void obey(std::string_view line, const GiveUp& give_up);
-  /// The line that is about to run, as it is shown after each move.
+  /// Prints the line that is about to run, as after each move.
   void show_place();
   bool done() const { return done_; }
 
-  /// Whether an empty line does it again.
+  /// Tells if an empty line repeats the command.
   enum class Repeats : std::uint8_t { No, Yes };
-  /// A command, as `help` shows it.
+  /// A command, as in `help`.
   struct Row {
     std::string_view word;
     std::string_view alias;
@@ -75,7 +75,7 @@ private:
   void help(std::string_view rest, const GiveUp&);
   void quit(std::string_view, const GiveUp&) { done_ = true; }
 
-  void report(const Stop& stop);
+  void report(const StopEvent& stop);
   void wrong(std::string_view text) { console_.say(text); }
   std::optional<Spot> spot_of(std::string_view text) const;
   std::string no_place(std::string_view text) const;

@@ -20,7 +20,7 @@ std::vector<Sources::Level> levels_of(const run::LinePlace& place, std::uint32_t
   return levels;
 }
 
-/// Calls `visit` with the spots that a line is the first for, the outermost first.
+/// Calls `visit` with the spots for which a line is the first one, outermost first.
 template <class Visit>
 void each_beginning(const Sources::Line& line, Visit visit) {
   const auto own = line.levels.size() - 1;

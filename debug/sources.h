@@ -22,10 +22,10 @@ struct Spot {
   friend auto operator<=>(const Spot&, const Spot&) = default;
 };
 
-/// The files of a run, and which of their lines the robot's lines and commands stand for.
+/// The files of a run, and the source lines that the robot's lines and commands come from.
 class Sources {
 public:
-  /// The inputs outlive it.
+  /// The inputs must outlive it.
   Sources(std::span<const run::Input> inputs, const run::Options& options);
 
   struct File {
@@ -33,51 +33,50 @@ public:
     const Source* source = nullptr;
   };
   const std::vector<File>& files() const { return files_; }
-  /// The file of the first program; of the first macro where there is none.
+  /// The file of the first program, or else of the first macro.
   std::uint32_t main_file() const { return main_file_; }
   /// `patrol.orb:12`.
   std::string words(Spot spot) const;
-  /// The text of the line without blanks at its ends.
+  /// The text of the line without surrounding blanks.
   std::string_view text(Spot spot) const;
-  /// The file of that name, or the one whose name ends like it.
+  /// The file with this name, or the one whose path ends with it.
   std::optional<std::uint32_t> file(std::string_view name) const;
 
-  /// A sub that is open where a line runs, though the robot itself may know of no call.
+  /// A sub active at a line. It may be inlined, so that the robot makes no call.
   struct Level {
-    std::uint32_t call = 0; ///< which one of the source it was written for; 0: the robot calls it
-    Spot spot;              ///< where it stands: of the innermost level the line, else a call
-    std::string sub;        ///< empty in the main part
+    std::uint32_t call = 0; ///< number of the inlined source call; 0: a call of the robot
+    Spot spot;              ///< the line itself for the innermost level, else the call
+    std::string sub;        ///< empty for the main part
 
     bool is_same(const Level& other) const { return call == other.call && sub == other.sub; }
   };
 
-  /// A line of a program of the robot.
+  /// A line of a robot program.
   struct Line {
     std::uint32_t number = 0;
     Spot spot;
-    std::vector<Level> levels; ///< the outermost first; the last one is that of the line itself
-    /// How many of them the line of the robot before this one shares: the others begin here.
+    std::vector<Level> levels; ///< outermost first; the last one is the line itself
+    /// How many levels it shares with the previous robot line; the others begin here.
     std::size_t shared = 0;
-    bool begins = false; ///< it is the first of those that its spot became
-    /// Of each letter the symbol that it holds before the line, as far as that is certain.
+    bool begins = false; ///< first robot line of its spot
+    /// The symbol in each letter before the line, as far as known.
     Holders symbols{};
   };
-  /// Null where the program in that area has no such line.
+  /// Returns null if the program in that area has no such line.
   const Line* line(spec::Area area, int number) const;
   const run::Input* input(spec::Area area) const;
   std::optional<Spot> spot(int macro, int command) const;
   std::string macro_name(int macro) const;
 
-  /// The first line of the file, from `line` on, that something runs for.
+  /// The first line of the file with code, starting at `line`.
   std::optional<std::uint32_t> runs(std::uint32_t file, std::uint32_t line) const;
-  /// The lines of the robot that begin a spot.
+  /// The robot lines that begin a spot.
   std::vector<int> robot_lines(Spot spot) const;
   /// How many levels two lines share.
   static std::size_t shared(const Line& a, const Line& b);
-  /// Whether some line begins that sub.
+  /// True if some line begins that sub.
   bool has_sub(std::string_view name) const;
-  /// The spots at which a sub begins: its name, or a line number. Of a sub that the compiler has
-  /// computed within its callers' lines, where it is called.
+  /// The spots at which a sub begins; `name` may be a line number. For an inlined sub, its calls.
   std::vector<Spot> subs(std::string_view name) const;
 
 private:

@@ -1,4 +1,4 @@
-// Where a run stops: the timeline asks before each line and command, and after each motion.
+// Where a run stops. The timeline asks before each line and command, and after each motion step.
 
 #include "debug/debugger.h"
 
@@ -39,7 +39,7 @@ bool Debugger::line() {
     const bool forward = direction_ == Direction::Forward;
     found_at_ = {first, first};
     if (first < new_from && first < innermost_level && goes_on(*here, first))
-      ++found_at_.first; // the call has begun with a line before
+      ++found_at_.first; // the call began with an earlier line
     for (auto n = first; n <= innermost_level && (!stop || n == first); ++n) {
       const auto level = forward ? n : innermost_level + first - n;
       if (!stops_at(*here, level, new_from))
@@ -55,8 +55,8 @@ bool Debugger::line() {
   return stop;
 }
 
-/// The outermost level that begins with this line, now that another one has run before it; their
-/// number where none does.
+/// The outermost level that begins with this line, given the previous line; the number of levels if
+/// none does.
 std::size_t Debugger::first_new(const Sources::Line& line) const {
   if (before_ == nullptr)
     return line.shared;
@@ -65,19 +65,19 @@ std::size_t Debugger::first_new(const Sources::Line& line) const {
   return std::max(line.shared, Sources::shared(*before_, line));
 }
 
-/// Whether the line before stood at the same place of that level.
+/// True if the previous line was at the same place of that level.
 bool Debugger::goes_on(const Sources::Line& line, std::size_t level) const {
   return before_ != nullptr && Sources::shared(*before_, line) > level &&
          before_->levels[level].spot == line.levels[level].spot;
 }
 
-/// Whether the line before is for the same line of the source, and this is not its next round.
+/// True if the previous line belongs to the same source line, in the same iteration.
 bool Debugger::runs_on(const Sources::Line& line) const {
   return goes_on(line, line.levels.size() - 1) && before_->number < line.number &&
          before_->levels.size() == line.levels.size();
 }
 
-/// Whether the run stops at one level of a line that is about to run.
+/// True if the run stops at one level of a line that is about to run.
 bool Debugger::stops_at(const Sources::Line& line, std::size_t level, std::size_t new_from) {
   const auto& here = line.levels[level];
   const bool is_new = level >= new_from;
@@ -106,7 +106,7 @@ bool Debugger::motion(Duration t) {
   return stop;
 }
 
-/// Whether the step that is being made ends before this line or command.
+/// True if the current step ends before this line or command.
 bool Debugger::steps_here(Thread thread, Depth here, bool begins) {
   if (thread != thread_)
     return false;
@@ -129,7 +129,7 @@ bool Debugger::hit_place(Spot spot) {
   return stop;
 }
 
-/// A sub begins.
+/// Called when a sub begins.
 bool Debugger::hit_sub(std::string_view name) {
   bool stop = false;
   for (auto& one : breakpoints_)
@@ -144,7 +144,7 @@ bool Debugger::hit_values() {
     if (!one.expression)
       continue;
     const auto value = one.expression->value(*this);
-    if (!value) // the variable is not in use here
+    if (!value) // the variable does not exist here
       continue;
     const auto known = values_.find(one.id);
     const bool first = known == values_.end();
@@ -163,7 +163,7 @@ bool Debugger::hit_values() {
   return stop;
 }
 
-/// A breakpoint's place is reached: whether it stops the run.
+/// Counts a hit; returns true if it stops the run.
 bool Debugger::counts(Breakpoint& one) {
   if (one.only_if) {
     const auto holds = one.only_if->value(*this);
@@ -180,12 +180,12 @@ bool Debugger::counts(Breakpoint& one) {
       console_.say(filled(one.log));
     return false;
   }
-  found_.reason = Stop::Reason::Breakpoint;
+  found_.reason = StopEvent::Reason::Breakpoint;
   found_.breakpoints.push_back(one.id);
   return true;
 }
 
-/// The text of a log point with the values of what stands in braces.
+/// The text of a log point with the expressions in braces evaluated.
 std::string Debugger::filled(std::string_view text) const {
   std::string out;
   while (!text.empty()) {

@@ -10,15 +10,15 @@
 namespace orb::debug {
 namespace {
 
-// How far the copies of a ball lie apart at first; the distances double when there are too many.
+// Steps between snapshots at first; the distance doubles when there are too many.
 constexpr std::uint64_t first_steps_apart = 16'384;
 constexpr Duration first_time_apart = 10s;
-/// How long the ball lives before it is looked at.
+/// How far the ball runs between two checks.
 constexpr Duration slice = 1s;
 
 } // namespace
 
-// Beginning.
+// Starting.
 
 Timeline::Timeline(std::span<const run::Input> inputs, const run::Options& options,
                    Audience& audience, run::HeldRobot* robot)
@@ -34,7 +34,7 @@ tl::expected<std::unique_ptr<Timeline>, Failure> Timeline::start(std::span<const
   std::unique_ptr<Timeline> timeline(new Timeline(inputs, options, audience, robot));
   if (auto started = timeline->start(); !started)
     return tl::unexpected(started.error());
-  timeline->restore(timeline->copies_.front()); // the client of the first ball is gone
+  timeline->restore(timeline->copies_.front()); // the client of the first ball has been destroyed
   return timeline;
 }
 
@@ -69,14 +69,14 @@ tl::expected<void, Failure> Timeline::start() {
   Search first;
   first.closed = true;
   search_ = &first;
-  ball_->advance_until_quiet(start_); // a macro's first command is due at once
+  ball_->advance_until_quiet(start_); // a macro's first command is due immediately
   search_ = nullptr;
   settle();
   copies_.push_back(copy());
   return {};
 }
 
-// Where it stands.
+// Position.
 
 Instant Timeline::instant() const {
   return ball_->machine().held() ? ball_->machine().now() : ball_->now();
@@ -104,9 +104,9 @@ bool Timeline::waits_for_number() const {
   return ball_->machine().waits_for_input() && !ball_->input_queued();
 }
 
-// Going.
+// Moving.
 
-/// Goes on to the bound, the time or a find, and changes on the way what was changed there.
+/// Runs to the bound, the time or a find, and repeats recorded changes on the way.
 Timeline::Reached Timeline::run(Search& search) {
   const auto bound = search.bound;
   for (;;) {
@@ -164,14 +164,14 @@ Timeline::Reached Timeline::advance_to_bound(Search& search) {
   }
 }
 
-/// How far the ball may live before it is looked at: a robot's run is no faster than the robot.
+/// How far the ball may run before the next check. With a robot, never faster than real time.
 Instant Timeline::next_look(Instant end) const {
   if (voice_.speaks)
     return std::min(end, std::max(ball_->now(), start_ + robot_->time()));
   return std::min(end, ball_->now() + slice);
 }
 
-/// Waits for what the robot says. That is a change like those that users make.
+/// Waits for data from the robot, which counts as a change.
 std::optional<Timeline::Reached> Timeline::hear(Search& search) {
   const auto next = std::min(ball_->next_event(), search.until);
   const auto felt = robot_->hear(next == never ? Duration::max() : next - start_);
@@ -206,7 +206,7 @@ void Timeline::Voice::show_back(int level) {
     robot_->show_back(level);
 }
 
-/// Lets a program that is between two lines come to the beginning of the next one.
+/// Moves a program that is between two lines to the beginning of the next one.
 void Timeline::settle() {
   Search search;
   search.closed = true;
@@ -214,7 +214,7 @@ void Timeline::settle() {
   while (!ball_->held() && ball_->basic_running() && !ball_->machine().waits() && !over())
     ball_->advance_until_quiet(ball_->now() + slice);
   if (!ball_->held())
-    ball_->advance_to(ball_->now()); // what else is due at this instant
+    ball_->advance_to(ball_->now()); // completes this instant
   search_ = nullptr;
 }
 
@@ -232,7 +232,7 @@ Halt Timeline::forward(Watch& watch, Duration until, const GiveUp& give_up, How 
     return search_forward(search);
   if (lost_)
     return Halt::Lost;
-  edits_.resize(applied_); // of a moment that it has come back from
+  edits_.resize(applied_); // drops changes after this moment: the run went back before them
   if (!robot_goes_)
     if (auto goes = robot_->go_on(time()); !goes) {
       lost_ = goes.error();
@@ -349,12 +349,13 @@ bool Timeline::apply(const Edit& edit) {
   } else if (const auto* number = std::get_if<GiveNumber>(&edit)) {
     ball_->queue_input(number->value);
   } else if (const auto* stimulus = std::get_if<vm::Stimulus>(&edit)) {
-    // Before the line that is about to run: the ball's own clock may already be within that line.
+    // The change applies before the line that is about to run; the ball's clock may already be
+    // within that line.
     const auto at = ball_->machine().held() ? ball_->machine().next_event() : ball_->now();
     const vm::TimedStimulus timed{at - ball_->now(), *stimulus};
     ball_->schedule({&timed, 1});
   } else if (const auto* felt = std::get_if<run::Felt>(&edit)) {
-    // What follows from it is part of the run, also where it happens again.
+    // Its effects are part of the run, and are replayed with it.
     Search again;
     auto* const before = search_;
     if (before == nullptr)
@@ -365,7 +366,7 @@ bool Timeline::apply(const Edit& edit) {
       ball_->feel(*sample);
     else
       ball_->feel(std::get<vm::event::Collision>(*felt));
-    on_step(ball_->now(), ball_->body()); // this is how a robot elsewhere moves on
+    on_step(ball_->now(), ball_->body()); // drives a remote robot's motion
     search_ = before;
   }
   return true;

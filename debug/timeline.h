@@ -18,19 +18,19 @@
 #include <variant>
 #include <vector>
 
-// A run as a session in time: it goes forward until something is found, and back by running again,
-// because a run is a pure function of what it is given. Copies of the whole ball, some at any time
-// and never more than a bound, save it from running again from the start.
+// A run as a timeline. It goes forward until something is found, and back by running again: a run
+// is a pure function of its input. Snapshots of the whole ball, limited in number, save running
+// again from the start.
 
 namespace orb::debug {
 
-/// A place in a run where it can stand still. A step is a line of a program or a command of a
-/// macro. Between two steps there is one moment at which the next one is about to begin, and before
-/// that one for each instant at which all that runs waits.
+/// A place in a run where it can stop. A step is a line of a program or a command of a macro.
+/// Between two steps there is one moment at which the next step is about to begin; before it there
+/// is one for each instant at which everything waits.
 struct Moment {
-  std::uint64_t step = 0; ///< steps that have been made
-  bool about_to = false;  ///< the next one begins now; of two moments the later one
-  Instant at{};           ///< where it waits
+  std::uint64_t step = 0; ///< steps made so far
+  bool about_to = false;  ///< the next step is about to begin; sorts after the waiting moments
+  Instant at{};           ///< time at which it waits
 
   friend bool operator==(const Moment& a, const Moment& b) {
     return a.step == b.step && a.about_to == b.about_to && (a.about_to || a.at == b.at);
@@ -42,117 +42,120 @@ struct Moment {
   }
 };
 
-/// What a search looks for. Each question is asked while the timeline stands at the place in
-/// question, and `true` stops it there. Wherever a search begins, it finds the same places.
+/// What a search looks for. The timeline is at the place in question at each call; returning true
+/// stops it there. The result does not depend on where a search begins.
 class Watch {
 public:
   virtual ~Watch() = default;
-  /// A search begins here, or begins again at a place from which it looks forward.
+  /// A search begins, or restarts at a place from which it goes forward.
   virtual void begin() {}
-  /// Whether line() is to be asked; if not, lines run at full speed.
+  /// Returns true if line() should be called; otherwise lines run at full speed.
   virtual bool wants_lines() const { return true; }
-  /// A line of a program is about to run.
+  /// A program line is about to run.
   virtual bool line() { return false; }
-  /// A command of a macro is about to begin.
+  /// A macro command is about to begin.
   virtual bool command() { return false; }
-  /// Something has happened.
+  /// An event happened.
   virtual bool event(const vm::Event&) { return false; }
-  /// Going back, what was found last counts so far: it lies before the place to go back from.
+  /// Going back: the last find is the best so far, as it is before the starting point.
   virtual void noted() {}
-  /// The ball has taken a step of its motion, at that time since the start.
+  /// The ball made a motion step, at that time since the start.
   virtual bool motion(Duration) { return false; }
 };
 
-// What a user changes at a moment. It happens again whenever the run passes that moment.
+// A user's change at a moment. It is repeated whenever the run passes that moment.
 
 struct SetVariable {
-  std::size_t index = 0; ///< as in vm::Ball::set_variable
+  std::size_t index = 0; ///< index for vm::Ball::set_variable
   std::int32_t value = 0;
 };
 struct GoToLine {
   int line = 0;
 };
-struct GiveNumber { ///< for `input`
+struct GiveNumber { ///< an answer to `input`
   std::int32_t value = 0;
 };
 using Edit = std::variant<SetVariable, GoToLine, GiveNumber, vm::Stimulus, run::Felt>;
 
-/// Why a search came back.
+/// Why a search ended.
 enum class Halt : std::uint8_t {
   Found,
-  Time,    ///< the instant that was given
-  Over,    ///< the run is over, or waits for a number that nobody brings; backwards: its beginning
-  GivenUp, ///< whoever asked does not want it any more
-  Lost,    ///< the robot that is driven: lost()
+  Time, ///< reached the given instant
+  /// the run is over, or waits for a number that nobody provides; going back: its beginning
+  Over,
+  GivenUp, ///< interrupted by the caller
+  Lost,    ///< the driven robot failed: lost()
 };
 
-/// Asked now and then whether a search is still wanted.
+/// Called from time to time; returns true to interrupt a search.
 using GiveUp = std::function<bool()>;
 
-/// Hears what happens, each thing once: not when it happens again on the way back, unless something
-/// was changed before it.
+/// Receives each event once. Events replayed on the way back are not repeated, unless a change was
+/// made before them.
 class Audience {
 public:
   virtual ~Audience() = default;
   virtual void on_event(Duration t, const vm::Event& event) = 0;
 };
 
+/// A run that goes forward and back. Large because running, replaying and changing it must keep the
+/// ball, its snapshots, the changes and the events told so far consistent.
 class Timeline final : vm::Observer, vm::StepObserver, vm::Gate {
 public:
-  /// Brings the inputs into a ball and starts them, up to the moment before the first step.
-  /// `options.bound` does not count; inputs and options outlive the timeline. With a `robot`, which
-  /// may be null, the run drives that, is as fast as it, and goes only forward.
+  /// Loads and starts the inputs in a ball, up to the moment before the first step. Ignores
+  /// `options.bound`; inputs and options must outlive the timeline. With a `robot` (may be null)
+  /// the run drives it in real time and only goes forward.
   static tl::expected<std::unique_ptr<Timeline>, Failure> start(std::span<const run::Input> inputs,
                                                                 const run::Options& options,
                                                                 Audience& audience,
                                                                 run::HeldRobot* robot);
   ~Timeline();
 
-  // Where it stands.
+  // Position.
   Moment now() const;
-  /// The same in robot time since the start; of a line that is about to run, its beginning.
+  /// The current robot time since the start; for a line that is about to run, its beginning.
   Duration time() const { return instant() - start_; }
   Instant instant() const;
   const vm::Ball& ball() const { return *ball_; }
-  /// What a program would read now.
+  /// What a program would read at this moment.
   std::int32_t sensor(spec::Variable variable) const;
-  /// What is about to begin.
+  /// What begins next.
   enum class Next : std::uint8_t { Nothing, Line, Command };
   Next next() const;
-  /// Nothing runs, or it waits for a number that nobody brings.
+  /// True if nothing runs, or it waits for a number that nobody provides.
   bool over() const;
   bool waits_for_number() const;
-  /// Whether it drives a robot.
+  /// True if it drives a robot.
   bool drives() const { return robot_ != nullptr; }
-  /// Why the robot can be driven no more.
+  /// Why the robot cannot be driven any more.
   const std::optional<Failure>& lost() const { return lost_; }
 
-  // Going.
-  /// Whether a search begins, or goes on where it was given up.
+  // Moving.
+  /// A new search, or the continuation of an interrupted one.
   enum class How : std::uint8_t { Begins, GoesOn };
-  /// Goes on until `watch` finds something, at the latest to robot time `until`. What it stands
-  /// before is not found again, unless the search goes on.
+  /// Runs until `watch` finds something, at most to robot time `until`. A new search ignores the
+  /// place where it starts.
   Halt forward(Watch& watch, Duration until, const GiveUp& give_up, How how = How::Begins);
-  /// Brakes the robot that is driven, where a search was given up and nobody goes on with it. Every
-  /// other end of a search does so by itself.
+  /// Brakes the driven robot after an interrupted search that nobody continues. All other ends of a
+  /// search do so themselves.
   void hold();
-  /// Goes to the last place before this one that `watch` would have found; to the beginning where
-  /// there is none. Given up, it stands where it stood.
+  /// Goes back to the last place that `watch` would have found, or to the beginning. If
+  /// interrupted, stays where it was.
   Halt back(Watch& watch, const GiveUp& give_up);
-  /// Goes to a moment at which this run has stood.
+  /// Goes to a moment at which this run has been.
   void go_to(Moment moment);
-  /// Goes to the beginning and forgets all changes.
+  /// Goes to the beginning and drops all changes.
   void begin_again();
-  /// Changes something now. What was changed later than now is forgotten. False where it cannot be.
+  /// Makes a change at this moment and drops later ones. Returns false if it is impossible.
   bool change(const Edit& edit);
 
-  /// Tells the journey all that has happened until now.
+  /// Passes everything up to this moment to the journey.
   void tell(report::Journey& journey);
 
-  /// What going back costs in memory.
+  /// The memory used for going back.
   struct Size {
-    std::size_t copies = 0; ///< of the ball
-    std::size_t bytes = 0;  ///< of all of them, about
+    std::size_t copies = 0; ///< snapshots of the ball
+    std::size_t bytes = 0;  ///< of all snapshots, approximately
   };
   Size size() const;
 
@@ -164,9 +167,8 @@ private:
   struct Copy;
   struct Search;
   enum class Reached : std::uint8_t { Bound, Found, Time, Over, GivenUp, Lost };
-  /// Tells the robot what the run says, but for what it says again on its way to a place where it
-  /// has been.
-  class Voice final : public vm::Elsewhere {
+  /// Passes commands of the run to the robot, except while replaying to an earlier place.
+  class Voice final : public vm::RemoteBody {
   public:
     explicit Voice(run::HeldRobot* robot) : robot_(robot) {}
     bool speaks = false;
@@ -204,17 +206,17 @@ private:
   std::span<const run::Input> inputs_;
   const run::Options& options_;
   Audience& audience_;
-  run::HeldRobot* robot_; ///< null: the body is a virtual one
+  run::HeldRobot* robot_; ///< null: the body is virtual
   Voice voice_;
-  bool robot_goes_ = false; ///< nobody holds it
+  bool robot_goes_ = false; ///< the robot is not held
   std::optional<Failure> lost_;
-  vm::NativePrograms native_; ///< machine code that all copies share
+  vm::NativePrograms native_; ///< machine code shared by all snapshots
   std::unique_ptr<vm::Ball> ball_;
   Instant start_{};
-  std::uint64_t commands_ = 0; ///< of macros that have begun
+  std::uint64_t commands_ = 0; ///< macro commands begun so far
   std::uint64_t events_ = 0;
-  std::uint64_t told_ = 0;  ///< events that the audience has heard of
-  std::size_t applied_ = 0; ///< edits
+  std::uint64_t told_ = 0;  ///< events passed to the audience so far
+  std::size_t applied_ = 0; ///< edits applied so far
   struct Change {
     Moment at;
     Edit edit;

@@ -1,4 +1,4 @@
-// The copies of a ball that save going back from running again from the start.
+// Snapshots of the ball, so that going back does not run again from the start.
 
 #include "debug/search.h"
 #include "debug/timeline.h"
@@ -10,9 +10,9 @@
 namespace orb::debug {
 namespace {
 
-/// When there are more, every second one goes.
+/// When there are more, every second one is dropped.
 constexpr std::size_t most_copies = 64;
-/// Steps between a place from which somebody went back and the copy that is kept close before it.
+/// Steps between a place from which the run went back and the snapshot kept before it.
 constexpr std::uint64_t near_steps = 4096;
 
 std::size_t bytes_of(const vm::Ball& ball) {
@@ -39,7 +39,7 @@ void Timeline::restore(const Copy& copy) {
   applied_ = copy.applied;
 }
 
-/// The last copy that is not after `moment`.
+/// The last snapshot at or before `moment`.
 const Timeline::Copy& Timeline::base_before(const Moment& moment) const {
   const auto after =
       std::upper_bound(copies_.begin() + 1, copies_.end(), moment,
@@ -64,7 +64,7 @@ void Timeline::keep_copy() {
   time_apart_ *= 2;
 }
 
-/// Keeps a copy close before `moment`, so that the next steps back from there are short.
+/// Keeps a snapshot shortly before `moment`, so that further steps back are short.
 void Timeline::copy_near(const Moment& moment) {
   if (near_ && near_->at < moment && moment.step - near_->at.step <= 2 * near_steps)
     return;

@@ -82,8 +82,8 @@ void Timeline::on_step(Instant at, const vm::Body&) {
     ball_->interrupt();
 }
 
-/// Something between two steps was found. Where a program is under way, the run stands still before
-/// its next line; else at this very instant.
+/// Something between two steps was found. If a program is running, the run stops before its next
+/// line, otherwise at this instant.
 void Timeline::hit(Instant at) {
   auto& search = *search_;
   if (search.gather_to) {

@@ -16,7 +16,7 @@
 namespace orb::disk {
 namespace {
 
-/// Closes a descriptor when the scope ends.
+/// Closes a descriptor at the end of the scope.
 class Descriptor {
 public:
   explicit Descriptor(int fd) : fd_(fd) {}
@@ -32,7 +32,7 @@ private:
   int fd_;
 };
 
-/// What the process has been given: /dev/stdin, or /dev/fd/63 of a shell's `<(command)`.
+/// Returns true for an inherited descriptor: /dev/stdin, or /dev/fd/63 of a shell's `<(command)`.
 bool is_descriptor(const std::string& path) {
   return path.starts_with("/dev/") || path.starts_with("/proc/");
 }
@@ -54,7 +54,8 @@ tl::expected<void, IoError> overwrite(const std::string& path, ByteView bytes) {
   return {};
 }
 
-/// A file beside `path`, renamed to it. `before` is what it replaces; null for nothing.
+/// Writes a file beside `path` and renames it. `before` describes the file it replaces; null if
+/// there is none.
 tl::expected<void, IoError> replace(const std::string& path, ByteView bytes,
                                     const struct stat* before) {
   std::string temporary = path + ".XXXXXX";
@@ -63,7 +64,7 @@ tl::expected<void, IoError> replace(const std::string& path, ByteView bytes,
     return failure("write", path);
   if (before != nullptr && ::fchown(file.get(), before->st_uid, before->st_gid) != 0) {
     ::unlink(temporary.c_str());
-    return overwrite(path, bytes); // somebody else's file, which we may write to
+    return overwrite(path, bytes); // a file of another owner that we may write to
   }
   const auto mode = before != nullptr ? before->st_mode & 07777 : default_mode();
   const bool written = write_all(file.get(), bytes) && ::fchmod(file.get(), mode) == 0 &&
@@ -117,11 +118,11 @@ tl::expected<void, IoError> write(const std::string& path, ByteView bytes) {
     errno = EISDIR;
     return failure("write", path);
   }
-  // Renaming would pass by what keeps others, or the user himself, from writing to the file.
+  // Renaming would ignore write protection of the file.
   if (exists ? ::access(place.c_str(), W_OK) != 0 : errno != ENOENT)
     return failure("write", path);
-  // A device or a pipe (/dev/stdout) cannot be replaced, and a file of several names would lose
-  // the others.
+  // Devices and pipes (/dev/stdout) cannot be replaced, and replacing a file with several names
+  // would detach the others.
   if (exists && (!S_ISREG(status.st_mode) || status.st_nlink > 1))
     return overwrite(place, bytes);
   return replace(place, bytes, exists ? &status : nullptr);
@@ -161,7 +162,7 @@ Draft::~Draft() {
 tl::expected<void, IoError> Draft::move_to(const std::string& path) {
   struct stat before {};
   const bool exists = ::lstat(path.c_str(), &before) == 0;
-  // What renaming would lose: other names, another owner.
+  // Renaming would lose other names or another owner.
   const bool in_place = exists && (!S_ISREG(before.st_mode) || before.st_nlink > 1 ||
                                    ::fchown(fd_, before.st_uid, before.st_gid) != 0);
   if (error_ == 0 && in_place) {

@@ -13,33 +13,33 @@
 
 namespace orb::disk {
 
-/// The whole content of `path`; `-` is standard input. Directories and unreadable files are errors,
-/// and pipes that have a name: nobody may ever write into them.
+/// Reads the whole content of `path`; `-` is standard input. Refuses directories, unreadable files
+/// and named pipes, which might never get a writer.
 tl::expected<std::string, IoError> read(const std::string& path);
 
-/// Writes `bytes` to what `path` leads to, whole or not at all; mode, owner and other names stay
-/// (in place, where they would be lost). `-` is standard output.
+/// Writes `bytes` to the target of `path`, completely or not at all. Keeps mode, owner and other
+/// names, if necessary by writing in place. `-` is standard output.
 tl::expected<void, IoError> write(const std::string& path, ByteView bytes);
 
-/// A file that is written bit by bit and takes the place of another only at the end: what was there
-/// before stays until then. What has been appended lies beside it, so it outlives a kill. Pipes and
-/// devices get all of it at the end, in one go.
+/// A file written piece by piece that replaces another only at the end. Until then the appended
+/// bytes are stored beside it, where they survive a kill. Pipes and devices receive everything at
+/// the end.
 class Draft {
 public:
-  /// For what `path` leads to, which is not touched yet. Fails where it could not be written.
+  /// Prepares to write the target of `path`, which is not touched yet. Fails if it is not writable.
   static tl::expected<Draft, IoError> of(const std::string& path);
 
   Draft(Draft&& other) noexcept;
   Draft& operator=(Draft&& other) noexcept;
-  /// Leaves nothing behind.
+  /// Removes the bytes stored beside it.
   ~Draft();
 
-  /// A failure is kept, and told by publish() or keep_beside().
+  /// Appends bytes. A failure is reported later, by publish() or keep_beside().
   void append(ByteView bytes);
-  /// Becomes the file.
+  /// Replaces the file.
   tl::expected<void, IoError> publish();
-  /// Becomes `NAME.failed`, whose path it returns, where the file was there before, which stays;
-  /// else the file.
+  /// If the file existed before, keeps it, stores the draft as `NAME.failed` and returns that path.
+  /// Otherwise the draft becomes the file.
   tl::expected<std::optional<std::string>, IoError> keep_beside();
   bool empty() const { return size_ == 0; }
 
@@ -48,25 +48,25 @@ private:
   tl::expected<void, IoError> move_to(const std::string& path);
 
   std::string path_;
-  std::string beside_; ///< where the bytes are; empty for in memory
+  std::string beside_; ///< path of the bytes; empty: in memory
   int fd_ = -1;
-  int error_ = 0; ///< errno of the first append that failed
+  int error_ = 0; ///< errno of the first failed append
   std::size_t size_ = 0;
   Bytes held_;
 };
 
-/// What is at `path` if it is not a file: `a pipe`, `a folder`, `a device`, `a socket`. Empty for a
-/// file, and for nothing.
+/// Names what `path` is if not a file: `a pipe`, `a folder`, `a device`, `a socket`. Empty for a
+/// file, or if nothing exists there.
 Message what_else(const std::string& path);
 
-/// What links at `path` lead to, even where that is not there yet.
+/// Resolves symbolic links, even to a target that does not exist yet.
 std::string target_of_links(std::string path);
 
-/// The path that a text in UTF-8 names. Where std::filesystem takes narrow characters for those of
-/// some other encoding, on Windows, it would not be that one.
+/// Converts UTF-8 to a path. On Windows std::filesystem would interpret narrow characters in
+/// another encoding.
 std::filesystem::path as_path(std::string_view path);
 
-/// How a file is called in messages: its path, or `<stdin>` for `-`.
+/// Returns the name of a file in messages: its path, or `<stdin>` for `-`.
 std::string display_name(const std::string& path);
 
 } // namespace orb::disk

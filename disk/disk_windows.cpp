@@ -24,7 +24,7 @@ int open(const std::string& path, int flags) {
   return ::_wopen(as_path(path).c_str(), flags | _O_BINARY | _O_NOINHERIT, mode);
 }
 
-/// Makes a file beside `path` whose name nobody has; its name is added to `path`.
+/// Creates a file with an unused name beside `path` and changes `path` to it.
 int open_beside(std::string& path) {
   constexpr int tries = 1000;
   for (int i = 0; i < tries; ++i) {
@@ -39,8 +39,8 @@ int open_beside(std::string& path) {
   return -1;
 }
 
-/// `from` becomes `to`, in one step. Who reads a file for a moment, as virus scanners do, keeps it
-/// from that, so that it is tried for a while.
+/// Renames `from` to `to` atomically. A process that reads the file briefly, such as a virus
+/// scanner, blocks that, so it is retried for a while.
 bool replace(const std::string& from, const std::string& to) {
   constexpr int tries = 50;
   constexpr DWORD pause_ms = 20;
@@ -62,7 +62,7 @@ bool is_folder(const std::string& path) {
   return fs::is_directory(as_path(path), error);
 }
 
-/// Devices have names that are no paths: `NUL`, `CON`, `COM5`.
+/// Device names are not paths: `NUL`, `CON`, `COM5`.
 bool is_device(const std::string& path) {
   std::error_code error;
   return fs::is_other(as_path(path), error) || fs::is_character_file(as_path(path), error);

@@ -14,7 +14,7 @@
 namespace orb::disk {
 namespace {
 
-/// What to do about a file that is not there: the file beside it that was probably meant.
+/// Suggests the file beside a missing one that was probably meant.
 std::string missing_help(const std::string& path) {
   namespace fs = std::filesystem;
   const auto wanted = as_path(path);
@@ -47,7 +47,7 @@ tl::unexpected<IoError> failure(std::string_view action, const std::string& path
 
 namespace {
 
-/// More than any input of ours is; without it a device such as /dev/zero would be read forever.
+/// Larger than any input of orb. Limits devices such as /dev/zero, which never end.
 constexpr std::size_t read_most = 64 * 1024 * 1024;
 
 } // namespace
@@ -91,7 +91,7 @@ std::string display_name(const std::string& path) {
 
 std::string target_of_links(std::string path) {
   namespace fs = std::filesystem;
-  constexpr int links_most = 40; // as the kernel
+  constexpr int links_most = 40; // as in the kernel
   std::error_code error;
   for (int i = 0; i < links_most && fs::is_symlink(as_path(path), error); ++i)
     path = (as_path(path).parent_path() / fs::read_symlink(as_path(path), error)).string();

@@ -2,17 +2,17 @@
 
 #include "disk/disk.h"
 
-// What disk.h is made of on every system.
+// Shared by the implementations of disk.h on all systems.
 
 namespace orb::disk {
 
-/// Says why an action failed, from errno, and what helps.
+/// Describes errno after a failed action, with what helps.
 tl::unexpected<IoError> failure(std::string_view action, const std::string& path);
 
-/// All that comes from a descriptor; `name` is for errors.
+/// Reads everything from a descriptor; `name` is used in errors.
 tl::expected<std::string, IoError> read_descriptor(int fd, const std::string& name);
 
-/// Whether all went out; else errno says why not.
+/// Returns true if everything was written; otherwise errno says why not.
 bool write_all(int fd, ByteView bytes);
 
 } // namespace orb::disk

@@ -18,7 +18,7 @@ namespace {
 
 constexpr auto retry = std::chrono::milliseconds(5);
 
-/// Whether the file that is open is still the one of that name: its last owner may have removed it.
+/// Returns true if the open file still has that name: its last owner may have removed it.
 bool is_still(int fd, const std::string& path) {
   struct stat here {};
   struct stat there {};
@@ -26,7 +26,7 @@ bool is_still(int fd, const std::string& path) {
          here.st_ino == there.st_ino && here.st_dev == there.st_dev;
 }
 
-/// What the holder has written, a process number.
+/// The process number written by the holder.
 std::string holder(int fd) {
   char text[32] = {};
   const auto size = ::pread(fd, text, sizeof text - 1, 0);
@@ -83,7 +83,7 @@ Lock& Lock::operator=(Lock&& other) noexcept {
 
 Lock::~Lock() {
   if (!file_.empty())
-    ::unlink(file_.c_str()); // before it is let go of: who waits then finds that it is gone
+    ::unlink(file_.c_str()); // before unlocking: a waiting process then sees that it is gone
   if (fd_ >= 0)
     ::close(fd_);
 }

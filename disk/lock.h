@@ -9,13 +9,13 @@
 
 namespace orb::disk {
 
-/// Keeps other processes of orb from a file that this one reads, changes and writes again: a file
-/// `NAME.lock` beside it that holds the process number. It ends with its process, however that
-/// dies; the file may then stay, and the next one takes it over.
+/// Keeps other orb processes away from a file during a read-modify-write cycle: a file `NAME.lock`
+/// beside it that holds the process number. The lock ends with the process, however that dies; a
+/// file left behind is taken over by the next process.
 class Lock {
 public:
-  /// The lock on what `path` leads to. Another process is waited for as long as `patience`; the
-  /// error then says which one it is, and `help`. Pipes and devices are not locked.
+  /// Locks the target of `path`. Waits for another process up to `patience`; the error then names
+  /// that process and ends in `help`. Pipes and devices are not locked.
   static tl::expected<Lock, IoError> take(const std::string& path, Duration patience,
                                           std::string_view help);
 

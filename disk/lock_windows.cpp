@@ -16,7 +16,7 @@ namespace {
 
 constexpr auto retry = std::chrono::milliseconds(5);
 
-/// A file that nobody else can open to write, and that ends with its handle.
+/// Opens a file exclusively for writing; it is deleted with its handle.
 HANDLE open_alone(const std::string& file) {
   return ::CreateFileW(as_path(file).c_str(), GENERIC_WRITE | DELETE, FILE_SHARE_READ, nullptr,
                        CREATE_ALWAYS, FILE_ATTRIBUTE_NORMAL | FILE_FLAG_DELETE_ON_CLOSE, nullptr);
@@ -40,7 +40,7 @@ tl::expected<Lock, IoError> Lock::take(const std::string& path, Duration patienc
       return lock;
     }
     const auto error = ::GetLastError();
-    // One that its owner has just let go of may still be on its way out: access is denied then.
+    // A file that its owner has just released may still be pending deletion: access is then denied.
     const bool in_use = error == ERROR_SHARING_VIOLATION || error == ERROR_ACCESS_DENIED;
     if (!in_use)
       return tl::unexpected(IoError{fmt::format("cannot lock {}: error {}", path, error)});

@@ -6,8 +6,8 @@
 
 namespace orb::editor {
 
-/// A directive of macro source as editors present it. The assembler's own list is the authority; a
-/// test compares.
+/// A directive of macro source, described for editors. The assembler's list is authoritative; a
+/// test compares the two.
 struct MacroDirective {
   std::string_view word; ///< without the dot
   std::string_view usage;

@@ -6,10 +6,6 @@ Occurrences occurrences(const Source&, std::uint32_t, const LanguageOptions&) {
   return {};
 }
 
-std::optional<std::string> format(const Source&) {
-  return std::nullopt;
-}
-
 std::vector<Rewrite> rewrites(const Source&, const LanguageOptions&) {
   return {};
 }

@@ -1,7 +1,7 @@
 #pragma once
 
-// What an editor may ask about a text, without any protocol: places are bytes of a Source. The
-// languages answer in editor/languages/, each on its own shelf (language.cpp).
+// What an editor may ask about a text, independent of any protocol: places are bytes in a Source.
+// editor/languages/ has the answers, one folder per language (*_language.cpp).
 
 #include "base/diagnostic.h"
 #include "base/source.h"
@@ -18,11 +18,11 @@
 
 namespace orb::editor {
 
-/// What programs are checked for, and the files around them.
+/// The target of checks, and the surrounding files.
 struct LanguageOptions {
   spec::BasicVersion target = spec::default_basic_version;
-  structured::Files* files = nullptr; ///< what programs include; null: no file at all
-  std::vector<const Source*> open;    ///< structured programs, which may include each other
+  structured::Files* files = nullptr; ///< reads included files; null: none can be read
+  std::vector<const Source*> open;    ///< open structured programs, which may include each other
 };
 
 struct Hover {
@@ -35,54 +35,54 @@ enum class SuggestionKind : std::uint8_t { Keyword, Function, Variable, Value, L
 struct Suggestion {
   std::string label;
   SuggestionKind kind = SuggestionKind::Keyword;
-  std::string detail;   ///< a line beside the label
-  std::string markdown; ///< what an editor shows for the chosen one
+  std::string detail;   ///< shown next to the label
+  std::string markdown; ///< shown for the selected suggestion
 };
 
 struct Suggestions {
-  Span replaces; ///< the part of a word that is typed already
+  Span replaces; ///< the part already typed
   std::vector<Suggestion> items;
 };
 
 enum class OutlineKind : std::uint8_t { Function, Constant, Array };
 
-/// A line of the outline: a subroutine, a macro.
+/// An entry of the outline: a subroutine, a macro.
 struct Symbol {
   std::string name;
   std::string detail;
-  Span span;      ///< all of it
+  Span span;      ///< the whole definition
   Span selection; ///< its name
   OutlineKind kind = OutlineKind::Function;
 };
 
-/// A place in another file, which the text includes or which includes it.
+/// A place in a file that the text includes, or that includes the text.
 struct FarPlace {
-  std::shared_ptr<const Source> source; ///< its name is a path, or the name of an open text
+  std::shared_ptr<const Source> source; ///< its name is a path, or that of an open text
   Span span;
   bool defines = false;
 };
 
-/// A name in a text: a line number, a variable, a macro.
+/// The places of a name: a line number, a variable, a macro.
 struct Occurrences {
   std::vector<Span> definitions;
   std::vector<Span> uses;
   std::vector<FarPlace> elsewhere;
 };
 
-/// What gives a name another one: the edits of the text, and places elsewhere that get the name.
+/// A renaming: edits in the text, and places in other files.
 struct Renaming {
   std::vector<Edit> edits;
   std::vector<FarPlace> elsewhere;
 };
 
-/// A change of the whole text that a user may ask for.
+/// A change of the whole text that a user can choose.
 struct Rewrite {
   std::string title;
-  std::string kind; ///< of the protocol: `source.renumber`
+  std::string kind; ///< in the protocol: `source.renumber`
   std::string text;
 };
 
-/// A short text that an editor shows after a place, and what it says of itself.
+/// A short text shown after a place, with its tooltip.
 struct Hint {
   std::uint32_t at = 0;
   std::string label;
@@ -91,7 +91,7 @@ struct Hint {
 
 struct LanguageShape; // editor/languages/shape.h
 
-/// One language. Every function is pure and takes any text, however broken.
+/// The service of one language. Every function is pure and accepts any text, however broken.
 struct LanguageService {
   std::vector<Diagnostic> (*check)(const Source& source, const LanguageOptions& options);
   std::optional<Hover> (*hover)(const Source& source, std::uint32_t offset,
@@ -99,26 +99,25 @@ struct LanguageService {
   Suggestions (*suggest)(const Source& source, std::uint32_t offset,
                          const LanguageOptions& options);
   std::vector<Symbol> (*outline)(const Source& source);
-  /// Everything that is the same name as what stands at `offset`.
+  /// Finds every place of the name at `offset`.
   Occurrences (*occurrences)(const Source& source, std::uint32_t offset,
                              const LanguageOptions& options);
-  /// What gives the name at `offset` another one, or why that cannot be.
+  /// Renames the name at `offset`, or says why that is impossible.
   tl::expected<Renaming, std::string> (*rename)(const Source& source, std::uint32_t offset,
                                                 std::string_view name,
                                                 const LanguageOptions& options);
-  /// The canonical layout; nothing where the text cannot be laid out.
+  /// Returns the text in canonical layout; nothing if it cannot be formatted.
   std::optional<std::string> (*format)(const Source& source);
-  /// Only those that change something.
+  /// Returns only rewrites that change something.
   std::vector<Rewrite> (*rewrites)(const Source& source, const LanguageOptions& options);
   const LanguageShape* shape = nullptr;
-  /// In the order of the text; null for a language without any.
+  /// Returns hints in order of the text; null for a language without hints.
   std::vector<Hint> (*hints)(const Source& source, const LanguageOptions& options) = nullptr;
 };
 
-/// What a language answers that has no such thing.
+/// The answers of a language without the feature.
 namespace nothing {
 Occurrences occurrences(const Source& source, std::uint32_t offset, const LanguageOptions& options);
-std::optional<std::string> format(const Source& source);
 std::vector<Rewrite> rewrites(const Source& source, const LanguageOptions& options);
 } // namespace nothing
 

@@ -9,8 +9,8 @@
 namespace orb::editor {
 namespace {
 
-/// Where the header of the next message begins, if it does within `bytes`; behind what must be
-/// skipped when a body of unknown length comes first.
+/// Where the header of the next message begins within `bytes`; else the end of what can be skipped
+/// if a body of unknown length comes first.
 std::size_t next_header(std::string_view bytes) {
   constexpr std::string_view word = "content-length:";
   for (std::size_t at = 0; at < bytes.size(); ++at)
@@ -45,7 +45,7 @@ std::optional<MessageReader::Event> MessageReader::next() {
   }
 }
 
-/// Skips what cannot be told from a body whose length nobody knows.
+/// Skips bytes that may belong to a body of unknown length.
 void MessageReader::skip_to_header() {
   constexpr std::size_t shorter_than_the_word = 14;
   const auto at = next_header(buffer_);
@@ -57,7 +57,7 @@ void MessageReader::skip_to_header() {
   lost_ = false;
 }
 
-/// Reads a header when it is complete: sets `length_`, or says what is wrong with it.
+/// Reads a complete header: sets `length_`, or returns what is wrong with it.
 std::optional<MessageReader::Event> MessageReader::read_header() {
   if (lost_)
     skip_to_header();
@@ -77,8 +77,8 @@ std::optional<MessageReader::Event> MessageReader::read_header() {
   }
   const auto header = std::string_view(buffer_).substr(0, end);
   const auto length = body_length(header);
-  if (length.said != BodyLength::Said::Length) {
-    // A body that was longer than said may stand before the next header.
+  if (length.said != BodyLength::Found::Length) {
+    // The rest of a body longer than announced may precede the next header.
     const auto other = next_header(header.substr(std::min<std::size_t>(1, header.size())));
     buffer_.erase(0, other == std::string_view::npos ? end + size : other + 1);
     lost_ = true;

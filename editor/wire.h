@@ -7,22 +7,22 @@
 
 namespace orb::editor {
 
-/// Cuts a byte stream into the messages of the Language Server Protocol: headers, an empty line,
-/// as many bytes as `Content-Length` says. Whatever arrives, it goes on with the next message.
+/// Splits a byte stream into messages of the Language Server Protocol: headers, an empty line, then
+/// `Content-Length` bytes. Recovers from any error with the next message.
 class MessageReader {
 public:
-  /// Longer messages are skipped, not stored.
+  /// Bytes. Longer messages are skipped without storing them.
   static constexpr std::size_t max_message = 16U << 20;
   static constexpr std::size_t max_header = 4096;
 
   struct Event {
     bool is_error = false;
-    std::string text; ///< the message, or what is wrong with it
+    std::string text; ///< the message, or the error
   };
 
   void feed(std::string_view bytes) { buffer_.append(bytes); }
 
-  /// The next message or fault in what was fed; nothing until more arrives.
+  /// Returns the next message or error in the input so far; nothing if more is needed.
   std::optional<Event> next();
 
 private:
@@ -30,12 +30,12 @@ private:
   void skip_to_header();
 
   std::string buffer_;
-  std::optional<std::size_t> length_; ///< of the message that is being read
+  std::optional<std::size_t> length_; ///< of the message being read
   std::size_t to_skip_ = 0;
-  bool lost_ = false; ///< how long the last body is is not known: the next header has to be found
+  bool lost_ = false; ///< the last body has an unknown length: search for the next header
 };
 
-/// A message with its header.
+/// Adds the header to a message.
 std::string frame(std::string_view message);
 
 } // namespace orb::editor

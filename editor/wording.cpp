@@ -6,7 +6,7 @@
 namespace orb::editor {
 namespace {
 
-/// A number that counts something; what is too large is as good as the largest.
+/// Reads a count; numbers that are too large become the largest one.
 std::optional<std::uint32_t> count_of(const Json& json) {
   if (!json.is_number_integer())
     return std::nullopt;
@@ -38,7 +38,7 @@ Json Wording::position(const Source& source, std::uint32_t offset) const {
 }
 
 Json Wording::range(Ruler& ruler, Span span) {
-  auto begin = in_json(ruler(span.begin)); // the first of the two
+  auto begin = in_json(ruler(span.begin)); // the outer one of the two
   return {{"start", std::move(begin)}, {"end", in_json(ruler(span.end))}};
 }
 

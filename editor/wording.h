@@ -1,11 +1,11 @@
 #pragma once
 
-// Places and edits in the words of the Language Server Protocol. Only the server's own files see
-// its JSON.
+// Places and edits as JSON of the Language Server Protocol. Only the server's own files use its
+// JSON.
 
 #include "base/diagnostic.h"
 #include "base/source.h"
-#include "editor/text.h"
+#include "editor/text_places.h"
 
 #include <cstdint>
 #include <nlohmann/json.hpp>
@@ -16,15 +16,16 @@
 namespace orb::editor {
 
 #ifdef __EMSCRIPTEN__
-using Json = nlohmann::ordered_json; // the documents need that kind, and a page loads one, not two
+// same type as the documents use: the playground's page then loads only one
+using Json = nlohmann::ordered_json;
 #else
 using Json = nlohmann::json;
 #endif
 
-/// The member `name` of `json`, or null where there is none or `json` is not an object.
+/// The member `name` of `json`; null if there is none or `json` is not an object.
 const Json& member(const Json& json, const char* name);
 
-/// The string that `json` is; empty for anything else.
+/// The string in `json`; empty for other types.
 std::string text_of(const Json& json);
 
 struct Wording {
@@ -37,10 +38,10 @@ struct Wording {
   static Json range(Ruler& ruler, Span span);
   Json edit(const Source& source, const Edit& one) const;
   Json edits(const Source& source, const std::vector<Edit>& many) const;
-  /// The edits that make `text` of all of it; none where it is that already.
+  /// Edits that replace all of the text with `text`; none if they are equal.
   Json replace_all(const Source& source, const std::string& text) const;
 
-  /// The place that `json` says; nothing where it is none.
+  /// The byte at the position in `json`; nothing if it is not a position.
   std::optional<std::uint32_t> offset(const Source& source, const Json& json) const;
   std::optional<Span> span(const Source& source, const Json& json) const;
 };

@@ -2,15 +2,15 @@
 
 import { OrbError } from "./error.js";
 
-const patience = 10_000; // milliseconds until an engine that has said nothing is late
+const patience = 10_000; // milliseconds of silence after which an engine counts as late
 
 export class Client {
   #url; #worker; #late = 0; #broken = null; #next = 1; #open = new Map(); #listeners = new Map();
 
-  /** Settles when the wasm is there; rejects where it cannot be loaded. A new one after restart(). */
+  /** Settles when the wasm is loaded; rejects if it cannot be. restart() makes a new one. */
   ready;
 
-  /** `early`: a worker that start.js began, and the events that it sent since. */
+  /** `early`: a worker that start.js started, and the events it has sent since. */
   constructor(url, early) {
     this.#url = url;
     this.#begin(early);
@@ -42,8 +42,8 @@ export class Client {
         broken(event.message || "the worker cannot be loaded");
       };
     });
-    this.ready.catch(() => {}); // whoever waits for it hears of it
-    setTimeout(() => { // those who listen come first
+    this.ready.catch(() => {}); // others handle the rejection
+    setTimeout(() => { // after the listeners are attached
       for (const event of said) (event.type === "error" ? worker.onerror : worker.onmessage)(event);
     });
   }
@@ -62,7 +62,7 @@ export class Client {
     for (const listener of this.#listeners.get(event) ?? []) listener(data);
   }
 
-  /** Asks for something of playground/README.md; refused where the worker is broken. */
+  /** Calls a method of playground/README.md; rejects if the worker is broken. */
   call(method, params = {}) {
     if (this.#broken) return Promise.reject(this.#broken);
     return new Promise((done, failed) => {
@@ -78,7 +78,7 @@ export class Client {
     return () => this.#listeners.get(event).delete(listener);
   }
 
-  /** Ends whatever goes on, at once, and begins anew: nothing is open for the language server then. */
+  /** Ends everything at once and starts anew; the language server then has no open documents. */
   restart() {
     clearTimeout(this.#late);
     this.#worker.terminate();

@@ -1,21 +1,22 @@
-// The editor: CodeMirror, and the language server of `orb lsp` in a worker behind it.
+// The editor: CodeMirror with the language server of `orb lsp` in a worker.
 
 import { defaultKeymap, history, historyKeymap, isolateHistory, redo, undo } from "@codemirror/commands";
 import { bracketMatching } from "@codemirror/language";
 import { EditorView, Decoration, ViewPlugin, drawSelection, highlightActiveLine, highlightActiveLineGutter, highlightSpecialChars, keymap, lineNumbers } from "@codemirror/view";
-import { EditorState, StateEffect, StateField, Prec } from "@codemirror/state";
+import { Compartment, EditorState, StateEffect, StateField, Prec } from "@codemirror/state";
 import { setDiagnostics, lintGutter, nextDiagnostic } from "@codemirror/lint";
 import { LSPClient, LSPPlugin, hoverTooltips, signatureHelp, formatDocument, formatKeymap,
   renameKeymap, jumpToDefinitionKeymap } from "@codemirror/lsp-client";
 import { harmless, t } from "./page/dom.js";
+import "./page/editor_parts.js";
 import { typing } from "./page/typing.js";
 import { ending_of, limit_words, limits } from "./page/workspace.js";
 
 const uri_of = name => "file:///" + encodeURIComponent(name);
-/** Longer texts are checked when the typing rests, so that it stays fluent. */
+/** Longer texts are checked when typing pauses, to keep it fluent. */
 const quick = 48 * 1024;
 
-// ---- colours, by what the server says that a piece of text is ----
+// ---- colours from the server's semantic tokens ----
 const set_colors = StateEffect.define();
 const colors = StateField.define({
   create: () => Decoration.none,
@@ -56,20 +57,33 @@ const running = StateField.define({
   provide: field => EditorView.decorations.from(field),
 });
 
-/** What belongs to an editor; what needs a parser in the page, such as folding, is left out. */
+// ---- what to change next ----
+const set_pointed = StateEffect.define();
+const pointed = StateField.define({
+  create: () => Decoration.none,
+  update(value, transaction) {
+    for (const effect of transaction.effects)
+      if (effect.is(set_pointed)) return effect.value ? Decoration.set([Decoration.mark({ class: "cm-pointed" }).range(effect.value.from, effect.value.to)]) : Decoration.none;
+    return transaction.docChanged ? Decoration.none : value;
+  },
+  provide: field => EditorView.decorations.from(field),
+});
+
+/** The editor's extensions, without those that need a parser in the page, such as folding. */
 const basics = [
   lineNumbers(), highlightActiveLineGutter(), highlightSpecialChars(), history(), drawSelection(), bracketMatching(),
   highlightActiveLine(), keymap.of([...defaultKeymap, ...historyKeymap]),
 ];
 
 const severities = [, "error", "warning", "info", "hint"];
-const reconnects = 3; // a server that ends again and again is left alone
+const reconnects = 3; // a server that keeps crashing is not restarted
 
 /** `language`: the client of a worker; `files()`: all texts that there are; `on_change(name, text)`,
- *  `on_findings(name, list)`, `say(words, look)`. */
-export function make_editor({ parent, nonce, language, files, on_change, on_findings, say }) {
+ *  `on_findings(name, list)`, `say(words, look)`. `foreign(name)`: for a file in a language that the server does not know what brings
+ *  its extension, made of what an editor has for any language. */
+export function make_editor({ parent, nonce, language, files, on_change, on_findings, say, foreign }) {
   let view = null, shown = "", client = null, lost = 0;
-  const states = new Map(); // of the files that were shown: their text, selection and history
+  const states = new Map(); // of files shown before: text, selection and history
 
   // -- the server --
   function connect() {
@@ -79,7 +93,7 @@ export function make_editor({ parent, nonce, language, files, on_change, on_find
         for (const answer of (await language.call("lsp", { message })).messages)
           for (const listener of listeners) listener(typeof answer === "string" ? answer : JSON.stringify(answer));
       } catch (error) {
-        if (error.code === "broken") return; // which the page says
+        if (error.code === "broken") return; // the page reports it
         if (error.code !== "stopped" && ++lost <= reconnects) language.restart();
         else if (lost > reconnects) say("The checker has stopped. Save your program and reload the page.", "bad");
       }
@@ -98,7 +112,7 @@ export function make_editor({ parent, nonce, language, files, on_change, on_find
     connect();
     const name = shown;
     for (const [one, state] of states) states.set(one, fresh(one, state.doc.toString()));
-    shown = ""; // what the view holds speaks to the server that is gone
+    shown = ""; // the view refers to the crashed server
     if (name) show(name);
   });
 
@@ -109,7 +123,7 @@ export function make_editor({ parent, nonce, language, files, on_change, on_find
     const legend = asked.serverCapabilities?.semanticTokensProvider?.legend.tokenTypes;
     if (answer && legend && view.state.doc === doc) view.dispatch({ effects: set_colors.of(decorations(doc, answer.data, legend)) });
   }
-  /** After each change: findings and colours anew. */
+  /** Requests findings and colours after each change. */
   const follow = ViewPlugin.fromClass(class {
     constructor() { this.plan(0); }
     plan(wait) {
@@ -125,6 +139,13 @@ export function make_editor({ parent, nonce, language, files, on_change, on_find
 
   // -- findings and their fixes --
   let findings = [], say_findings = () => {};
+  /** `again()` tells them in another language. */
+  function tell(found, again) {
+    findings = found;
+    say_findings = again;
+    view.dispatch(setDiagnostics(view.state, findings));
+    on_findings(shown, findings);
+  }
   const place = (doc, { line, character }) => {
     if (line >= doc.lines) return doc.length;
     const there = doc.line(line + 1);
@@ -138,13 +159,10 @@ export function make_editor({ parent, nonce, language, files, on_change, on_find
     const put = actions => {
       if (LSPPlugin.get(view) !== plugin || plugin.syncedDoc !== doc) return;
       const map = position => plugin.unsyncedChanges.mapPos(place(doc, position));
-      say_findings = () => put(actions);
-      findings = diagnostics.map(one => ({
+      tell(diagnostics.map(one => ({
         from: map(one.range.start), to: map(one.range.end), line: one.range.start.line + 1, severity: severities[one.severity ?? 1],
         message: one.message.split("\n").map(line => t(line)).join("\n"), source: String(one.code ?? ""), actions: actions.filter(action => belongs(action, one)).map(action => fix(action, uri)),
-      }));
-      view.dispatch(setDiagnostics(view.state, findings));
-      on_findings(shown, findings);
+      })), () => put(actions));
     };
     put([]);
     if (!diagnostics.length) return;
@@ -180,7 +198,8 @@ export function make_editor({ parent, nonce, language, files, on_change, on_find
     doc: text,
     extensions: [
       Prec.high(keymap.of([...formatKeymap, ...renameKeymap, ...jumpToDefinitionKeymap, { key: "Mod-.", run: fix_here }, { key: "F8", run: nextDiagnostic }])),
-      typing(ending_of(name)), basics, lintGutter(), colors, running, short_enough, follow,
+      foreign(name) ? own_language.of([]) : [typing(ending_of(name)), colors, follow, client.plugin(uri_of(name), "")],
+      basics, lintGutter(), running, pointed, short_enough,
       EditorView.lineWrapping, EditorView.cspNonce.of(nonce),
       EditorView.contentAttributes.of({ "aria-label": `Text of ${name}`, autocapitalize: "off", autocorrect: "off", spellcheck: "false" }),
       EditorView.updateListener.of(update => {
@@ -188,30 +207,35 @@ export function make_editor({ parent, nonce, language, files, on_change, on_find
         states.set(name, update.state);
         on_change(name, update.state.doc.toString());
       }),
-      client.plugin(uri_of(name), ""),
     ],
   });
+  const own_language = new Compartment();
+  async function bring_language(name) {
+    const extension = await foreign(name)?.({ typing, tell, view });
+    if (extension && shown === name) view.dispatch({ effects: own_language.reconfigure(extension) });
+  }
   function show(name, text) {
     if (view && shown) states.set(shown, view.state);
     if (!states.has(name)) states.set(name, fresh(name, text));
     shown = name;
     findings = [];
     say_findings = () => {};
-    on_findings(name, null); // nobody knows yet
-    language.call("files", { files: files() }).catch(() => {}); // what it includes, what it tests
+    on_findings(name, null); // unknown so far
+    language.call("files", { files: files() }).catch(() => {}); // files that it includes or tests
     if (view) view.setState(states.get(name));
     else view = new EditorView({ state: states.get(name), parent });
+    bring_language(name);
   }
   connect();
 
   return {
     show,
-    /** Forgets what was open: other files come. */
+    /** Forgets the open files before others are opened. */
     reset() { states.clear(); shown = ""; },
     forget(name) { states.delete(name); if (shown === name) shown = ""; },
-    /** Puts another text in, as one step that can be undone. */
+    /** Replaces the text in one undoable step. */
     replace(text) { view.dispatch({ changes: { from: 0, to: view.state.doc.length, insert: text } }); },
-    /** The same of what differs; one step for each unless somebody is `typing` it. */
+    /** The same for the parts that differ; one undo step for each, unless somebody is `typing` it. */
     put(text, typing) {
       const { doc } = view.state, old = doc.toString();
       if (text === old) return;
@@ -222,7 +246,7 @@ export function make_editor({ parent, nonce, language, files, on_change, on_find
     },
     undo: () => undo(view),
     redo: () => redo(view),
-    /** It was hidden; what stands in `line` is what somebody is looking at. */
+    /** The editor was hidden; `line` is the one to show. */
     shown_again(line) {
       view.requestMeasure();
       if (line) this.go_to(line);
@@ -237,9 +261,14 @@ export function make_editor({ parent, nonce, language, files, on_change, on_find
       const shown_line = marked.value ? view.state.doc.lineAt(marked.from).number : 0;
       if (line === shown_line) return;
       const effects = [set_running.of(line)];
-      // Whoever writes is not moved away from there.
+      // Do not move the text while somebody types.
       if (line >= 1 && line <= view.state.doc.lines && !view.hasFocus) effects.push(EditorView.scrollIntoView(view.state.doc.line(line).from, { y: "nearest", yMargin: 40 }));
       view.dispatch({ effects });
+    },
+    /** Marks the first group of `pattern` until the text changes; without a pattern, nothing. */
+    point_at(pattern) {
+      const found = pattern?.exec(view.state.doc.toString()), from = found && found.index + found[0].lastIndexOf(found[1]);
+      view.dispatch({ effects: set_pointed.of(found ? { from, to: from + found[1].length } : null) });
     },
     go_to(line, column = 1) {
       const there = view.state.doc.line(Math.min(Math.max(line, 1), view.state.doc.lines));

@@ -5,12 +5,12 @@ import load from "./orb.mjs";
 
 const hex_of = bytes => Array.from(bytes, byte => byte.toString(16).padStart(2, "0")).join(" ");
 const bytes_of = hex => Uint8Array.from(hex.split(" ").filter(Boolean), pair => parseInt(pair, 16));
-// JSON has no bytes: a Uint8Array goes and comes as `{"hex": "FF 00"}`.
+// JSON has no bytes: a Uint8Array becomes `{"hex": "FF 00"}`.
 const to_json = value => JSON.stringify(value, (key, one) => one instanceof Uint8Array ? { hex: hex_of(one) } : one);
 const from_json = text => JSON.parse(text, (key, one) =>
   one !== null && typeof one === "object" && typeof one.hex === "string" && Object.keys(one).length === 1 ? bytes_of(one.hex) : one);
 
-/** Of the file beside this one. */
+/** Loads the file next to this one. */
 export async function instance_of(imports) {
   const url = new URL("./orb.wasm", import.meta.url);
   if (url.protocol === "file:" && typeof process === "object") {
@@ -19,15 +19,17 @@ export async function instance_of(imports) {
   }
   const answer = await fetch(url);
   if (!answer.ok) throw new Error(`${url}: ${answer.status} ${answer.statusText}`);
-  const streams = /^application\/wasm\b/.test(answer.headers.get("content-type") ?? ""); // some servers do not know it
+  const streams = /^application\/wasm\b/.test(answer.headers.get("content-type") ?? ""); // some servers do not send this type
   const { instance } = streams
     ? await WebAssembly.instantiateStreaming(answer, imports)
     : await WebAssembly.instantiate(await answer.arrayBuffer(), imports);
   return instance;
 }
 
-/** Loads the wasm, of which `instantiate(imports)` brings an instance; `call(method, params)` of the result returns
- *  the answer or throws an OrbError. */
+/**
+ * Loads the wasm; `instantiate(imports)` returns an instance. `call(method, params)` of the result returns the
+ * answer or throws an OrbError.
+ */
 export async function load_engine(instantiate = instance_of) {
   const wasm = await new Promise((done, failed) =>
     load({ instantiateWasm: (imports, receive) => (instantiate(imports).then(receive, failed), {}) }).then(done, failed));

@@ -1,4 +1,4 @@
-/** Why a call failed: `code` is the exit code that `orb` would have, "stopped" where its worker was ended, or "broken". */
+/** Why a call failed: `code` is the exit code of `orb`, "stopped" if the worker was ended, or "broken". */
 export class OrbError extends Error {
   constructor({ code, message, findings }) {
     super(message);

@@ -1,17 +1,17 @@
-// Writes examples.json: the examples and lessons of the repository, each with all files that it needs in one
-// folder, and the path that it drives. usage: node playground/examples.mjs ROOT FILE ENGINE, the last a folder with
-// the engine as a package
-import { readdirSync, readFileSync, writeFileSync } from "node:fs";
-import { join, resolve } from "node:path";
+// Writes the examples and lessons of the repository: examples.json says what the cards show, with the path that each
+// drives; examples/ID.json holds what it opens with, all files that it needs in one folder.
+// usage: node playground/examples.mjs ROOT FOLDER ENGINE, the last a folder with the engine as a package
+import { existsSync, mkdirSync, readdirSync, readFileSync, writeFileSync } from "node:fs";
+import { dirname, join, resolve } from "node:path";
 import { pathToFileURL } from "node:url";
-import { flat, for_page } from "./task.mjs";
+import { flat, for_page, job_in } from "./task.mjs";
 
 const [root, out, engine_folder] = process.argv.slice(2);
 const { load_engine } = await import(pathToFileURL(resolve(engine_folder, "engine.js")));
 const engine = await load_engine();
 const folder = join(root, "examples");
 const shelves = readdirSync(folder, { withFileTypes: true }).filter(entry => entry.isDirectory() && !["demo", "lessons", "library", "python"].includes(entry.name));
-/** Where each file of the shelves is; no two have one name. */
+/** The path of each file on the shelves; names are unique. */
 const places = Object.fromEntries(shelves.flatMap(({ name: shelf }) => readdirSync(join(folder, shelf)).map(name => [name, join(folder, shelf, name)])));
 const read = path => readFileSync(path, "utf8");
 const stem = name => name.replace(/\.\w+$/, "");
@@ -23,14 +23,14 @@ const named_in = text => text.split("\n").filter(line => !is_comment(line))
   .flatMap(line => line.match(/[\w-]+\.(?:macro|orb|bas|svg|stimulus)\b/g) ?? [])
   .filter(name => name in places);
 
-/** A file and what it names, and what that names. */
+/** Adds a file and everything it names, recursively. */
 function gather(files, name, text) {
   files[name] = flat(text);
   for (const other of named_in(text))
     if (!(other in files)) gather(files, other, read(places[other]));
 }
 
-/** The options of the first command that runs something in a text: the first lines of a program, or a task. */
+/** The options of the first command in a text that runs something: the first lines of a program, or a task. */
 function run_of(text, main) {
   const words = (text.match(/orb run (.*)/)?.[1].match(/"[^"]*"|'[^']*'|\S+/g) ?? [])
     .map(word => word.replace(/^(["'])(.*)\1$/, "$2").replace(/^(examples|\.\.\/\.\.)\/(\w+\/)?/, ""));
@@ -59,7 +59,7 @@ function example(name) {
   const test = `${stem(name)}.test`;
   const tested = test in places ? read(places[test]) : null;
   const program = tested?.match(/^program (.*)$/m)?.[1];
-  // A test of a macro with the name of a program would take the program.
+  // A test of a macro named like the program would otherwise match.
   const is_tested = tested !== null && (program ? program === name : ending(name) !== "macro");
   if (is_tested) gather(files, test, tested);
   return {
@@ -89,7 +89,7 @@ function drawing({ files, run }, main, text = files[main]) {
   const moves = ([, d]) => new Set(d.slice(1).split("L")).size > 1; // a change of colour at a stop draws nothing
   return { path: path.map(([stroke, d]) => [stroke, straightened(d)]).filter(moves) };
 }
-/** Without the points that lie within two units of the line between those that stay (Ramer, Douglas and Peucker). */
+/** Drops points within two units of the line between the remaining ones (Ramer, Douglas and Peucker). */
 function straightened(d) {
   const numbers = d.slice(1).split(/[L ]/).map(Number), points = [];
   for (let i = 0; i < numbers.length; i += 2) points.push([numbers[i], numbers[i + 1]]);
@@ -118,8 +118,28 @@ function lesson(name) {
   };
 }
 
+/** The same job in JavaScript, as Sphero Edu has it. */
+function twin({ id, path, color }) {
+  const place = join(folder, id, "edu"), readme = read(join(place, "README.md"));
+  return {
+    id: `${id}/edu`, title: readme.match(/^# \d+\. (.*)$/m)[1], language: "js", readme: for_page(readme), main: "robot.js",
+    files: { "robot.js": read(join(place, "robot.js")), "robot.test": flat(read(join(folder, id, "robot.test"))) }, run: {}, path, color, task: for_page(readme).replace(/^# \d+\. /, "# "),
+  };
+}
+
 const order = ["orb", "bas", "macro"];
 const examples = Object.keys(places).filter(name => order.includes(ending(name)) && name !== "orchestra.macro")
   .sort((a, b) => stem(a).localeCompare(stem(b)) || order.indexOf(ending(a)) - order.indexOf(ending(b))).map(example);
 const lessons = readdirSync(join(folder, "lessons")).filter(name => /^\d/.test(name)).sort().map(lesson);
-writeFileSync(out, JSON.stringify({ groups: [{ title: "Lessons", items: lessons }, { title: "Examples", items: examples }] }));
+const twins = lessons.filter(({ id }) => existsSync(join(folder, id, "edu"))).map(twin);
+
+/** Writes what it opens with, and returns what the page knows of it before. `names`: its other files, where an address names them. */
+function parted({ id, title, summary, language, path, color, readme, ...others }) {
+  // A twin's task is one of its own, as a teacher writes it.
+  const file = join(out, "examples", `${id}.json`), whole = others.task ? others : { ...others, readme };
+  mkdirSync(dirname(file), { recursive: true });
+  writeFileSync(file, JSON.stringify(whole));
+  const { main, files } = whole;
+  return { id, title, summary, job: job_in(readme), language, main, names: Object.keys(files).filter(name => name !== main), path, color };
+}
+writeFileSync(join(out, "examples.json"), JSON.stringify({ groups: [{ title: "Lessons", items: lessons.map(parted) }, { title: "Lessons in JavaScript", items: twins.map(parted) }, { title: "Examples", items: examples.map(parted) }] }));

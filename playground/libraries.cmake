@@ -1,4 +1,4 @@
-# What the rooms link in the browser, and how it is made small.
+# What the modules link in the browser, and how it is made small.
 
 include(../cmake/sources.cmake)
 add_library(Threads::Threads INTERFACE IMPORTED) # there are none

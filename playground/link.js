@@ -1,4 +1,4 @@
-// Uploads from a browser: Web Serial and Web Bluetooth carry the bytes, the uploader in C++ says which.
+// Uploads from a browser: Web Serial and Web Bluetooth carry the bytes, the uploader in C++ decides which.
 
 import { OrbError } from "./error.js";
 
@@ -10,7 +10,7 @@ const hung_up = closed("the other end hung up");
 const no_ball = message => new OrbError({ code: 4, message });
 const words_of = error => error?.message ? error.message.replace(/\.$/, "") : String(error);
 
-/** What has arrived and was not read yet. */
+/** Received bytes that have not been read yet. */
 class Inbox {
   #bytes = []; #error = null; #wake = () => {};
 
@@ -22,7 +22,7 @@ class Inbox {
     this.#error ??= error;
     this.#wake();
   }
-  /** All that is there, as soon as there is something; nothing after `ms`, or when `signal` says so. */
+  /** Returns all bytes as soon as there are some; nothing after `ms`, or when `signal` aborts. */
   async read(ms, signal) {
     if (!this.#bytes.length && !this.#error && ms > 0 && !signal?.aborted) {
       let timer;
@@ -40,13 +40,17 @@ class Inbox {
   }
 }
 
-const within = (promise, ms, error) => {
+/** The result of `promise`, or `error` after so many milliseconds. */
+export const within = (promise, ms, error) => {
   let timer;
   const late = new Promise((_, failed) => { timer = setTimeout(() => failed(error), ms); });
   return Promise.race([promise, late]).finally(() => clearTimeout(timer));
 };
 
-/** What `deed` brings, which is tried again after each of `pauses_ms`; `failed(error, last)` may end that. */
+/**
+ * Returns the result of `deed`, repeated after each of `pauses_ms` until it succeeds; `failed(error, last)` may end
+ * that.
+ */
 async function patiently(pauses_ms, deed, failed) {
   for (let n = 0; ; ++n) {
     try {
@@ -58,12 +62,13 @@ async function patiently(pauses_ms, deed, failed) {
   }
 }
 
-/** Asks the person for a port, so call it in a click. */
+/** Asks the person for a port: call it in a click handler. */
 export const choose_serial = () => navigator.serial.requestPort();
 
 /**
- * A serial port: a classic ball over Bluetooth, or an adapter. Asks the person for it where none is given. A link has `write(bytes)`, `read(ms, signal)` and `close()`; what it throws says
- * `kind` ("closed", "broken") and `message`. `orb` knows how long what may take.
+ * Opens a serial port: a classic ball over Bluetooth, or an adapter. Asks the person if none is given. A link has
+ * `write(bytes)`, `read(ms, signal)` and `close()`; its errors have `kind` ("closed", "broken") and `message`. `orb`
+ * supplies the timeouts.
  */
 export async function serial_link(orb, port) {
   port ??= await choose_serial();
@@ -83,7 +88,7 @@ export async function serial_link(orb, port) {
         inbox.push(value);
       }
     } catch {
-      inbox.fail(hung_up); // a radio link that is gone is an error of the stream
+      inbox.fail(hung_up); // the stream reports a lost radio link as an error
     } finally {
       reader.releaseLock();
     }
@@ -114,7 +119,10 @@ export async function serial_link(orb, port) {
 
 const kinds_of = (links, which) => which === "all" ? [links.ble, links.newer] : [links.ble];
 
-/** Asks the person for a robot, so call it in a click. `which`: those that keep programs, or all that can be driven from here. */
+/**
+ * Asks the person for a robot: call it in a click handler. `which`: those that store programs, or all that can be
+ * driven from here.
+ */
 export async function choose_bluetooth(orb, which = "ble") {
   const kinds = kinds_of(await orb.call("links"), which);
   return navigator.bluetooth.requestDevice({
@@ -123,10 +131,7 @@ export async function choose_bluetooth(orb, which = "ble") {
   });
 }
 
-/**
- * A robot that speaks the same over Bluetooth LE. `orb` knows how one is opened to commands. Asks the person for it where
- * none is given.
- */
+/** Opens a robot over Bluetooth LE. `orb` knows how to open one to commands. Asks the person if none is given. */
 export async function bluetooth_link(orb, device, which = "ble") {
   const links = await orb.call("links");
   const { pauses_ms } = links;
@@ -145,20 +150,24 @@ export async function bluetooth_link(orb, device, which = "ble") {
     if (last) throw no_ball(`cannot connect to ${device.name ?? "the robot"}: ${words_of(error)}; shake it awake, bring it closer, and close any app or disconnect any phone that may be using it`);
   });
   device.addEventListener("gattserverdisconnected", gone);
+  async function write(bytes) {
+    for (let at = 0; at < bytes.length; at += ble.piece) {
+      if (!here) throw lost;
+      try {
+        await within(commands.writeValueWithResponse(bytes.slice(at, at + ble.piece)), ble.write_ms, "late");
+      } catch {
+        if (!here || !device.gatt.connected) throw lost;
+        return; // it may have arrived, so it is never repeated: the packet counts as lost
+      }
+    }
+  }
+  let written = null; // pieces of two packets must not mix
   return {
     kind: "ble",
     name: device.name ?? "",
-    async write(bytes) {
-      for (let at = 0; at < bytes.length; at += ble.piece) {
-        if (!here) throw lost;
-        try {
-          await within(commands.writeValueWithResponse(bytes.slice(at, at + ble.piece)), ble.write_ms, "late");
-        } catch {
-          if (!here || !device.gatt.connected) throw lost;
-          return; // it may have arrived, so it is never sent again: the packet is lost
-        }
-      }
-    },
+    write: bytes => written = written ? written.catch(() => {}).then(() => write(bytes)) : write(bytes),
+    /** The same robot once more, after it was lost. */
+    again: () => bluetooth_link(orb, device, which),
     read: (ms, signal) => inbox.read(ms, signal),
     async close() {
       device.removeEventListener("gattserverdisconnected", gone);
@@ -181,7 +190,7 @@ async function greet(device, ble, on_bytes) {
   return find(ble.commands);
 }
 
-/** What a link does when it is asked to `write` bytes or to read until a time. */
+/** Writes bytes to a link, or reads until a time. */
 export async function do_wish(link, { write, read_until }, now, signal) {
   try {
     if (!write) return { bytes: await link.read(read_until - now(), signal) };
@@ -193,15 +202,14 @@ export async function do_wish(link, { write, read_until }, now, signal) {
 }
 
 /**
- * Brings `request` (files, names, area, run, …) to the ball at the other end of `link`. Returns how it ended,
- * in the words of `orb upload`; throws where the request cannot be sent at all. An `aborted` signal stops it
- * as Ctrl-C stops `orb upload`.
+ * Uploads `request` (files, names, area, run, …) to the ball on `link`. Returns how it ended, in the words of `orb
+ * upload`; throws if the request cannot be sent at all. An `aborted` signal stops it as Ctrl-C stops `orb upload`.
  */
 export async function deliver(orb, link, request, { on_status = () => {}, signal, first_seq = Math.floor(Math.random() * 256) } = {}) {
   const begin = performance.now();
   const now = () => performance.now() - begin;
   let told_to_stop = false;
-  /** Once for a signal: what is left to do for a clean end is done. */
+  /** Runs once per signal; the clean-up still completes. */
   const stopped = () => {
     if (told_to_stop || !signal?.aborted) return false;
     return told_to_stop = true;

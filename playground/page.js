@@ -1,5 +1,9 @@
-// The playground's page: what its parts have to do with each other.
+// The playground's page: connects its parts.
 
+import { shape } from "../report/page/dom.js";
+import { on_draw, redraw } from "../report/page/map.js";
+import { area } from "../report/page/map_chart.js";
+import { playback, watch } from "../report/page/playback.js";
 import { orb_player } from "../report/page/player.js";
 import { Client } from "./client.js";
 import { make_editor } from "./editor.js";
@@ -7,13 +11,11 @@ import { Ball } from "./page/ball.js";
 import { addresses_in, id_of, parts_of, show_class_buttons, show_own_task } from "./page/task.js";
 import { set_up_bubble } from "./page/bubble.js";
 import { set_up_blocks } from "./page/blocks/toggle.js";
-import { Verdicts } from "./page/verdicts.js";
 import { $, announce, close_dialogs, element, button, say, download, with_code, on_demand, show_trouble } from "./page/dom.js";
 import { watch_engines } from "./page/engines.js";
 import { speak } from "./page/language.js";
 import { learn } from "./page/said.js";
-import { as_workspace, lesson_after, load_library, mark_done, show_library, show_task } from "./page/library.js";
-import { set_up_mine } from "./page/mine.js";
+import { as_workspace, first_lesson, item_named, lesson_after, load_item, mark_done, not_loaded, show_library, show_task } from "./page/library.js";
 import { address_of, set_up_share } from "./page/share.js";
 import { fill_sheet } from "./page/sheet.js";
 import { first_steps, welcome } from "./page/steps.js";
@@ -21,7 +23,7 @@ import { Store, new_id } from "./page/store.js";
 import { set_up_world } from "./page/world.js";
 import { AddressError, checked, empty, first_error, from_fragment, keep, kept, kind_of, limit_words, limits, name_trouble, program_of, same_files, tests_of, ending_of, kinds } from "./page/workspace.js";
 
-// One worker answers while somebody types; the other runs programs and is ended with them.
+// One worker answers while somebody types; the other runs programs and is ended to stop them.
 const worker_url = new URL("./worker.js", import.meta.url);
 const early = globalThis.orb_workers;
 const language = new Client(worker_url, early?.language), machine = new Client(worker_url, early?.machine);
@@ -29,7 +31,7 @@ for (const client of [language, machine]) client.on("said", learn);
 
 let workspace = empty();
 window.addEventListener("beforeprint", () => fill_sheet(workspace));
-const nonce = "orb-editor"; // of the policy in page.html: the editor makes its style sheet itself
+const nonce = "orb-editor"; // from the policy in page.html: the editor creates its style sheet
 
 const player = orb_player({
   keys: $("player"), ball_px: 19,
@@ -39,16 +41,18 @@ const player = orb_player({
     blocks?.run_line(line);
   },
 });
-set_up_bubble({ greeting: "Hi! Press Run." });
+const remark = set_up_bubble({ greeting: "Hi! Press Run." });
 let editor = null, blocks = null;
+const is_foreign = name => ending_of(name) === "js";
 editor = make_editor({
   parent: $("editor"), nonce, language, say,
   files: () => workspace.files,
+  foreign: name => is_foreign(name) ? kit => with_edu(edu => edu.language(kit)) : null,
   on_change(name, text) {
     workspace.files[name] = text;
     if (name === workspace.active) blocks.changed(text);
     steps.changed();
-    verdicts.changed(workspace.files);
+    verdicts?.changed(workspace.files);
     keep_soon();
   },
   on_findings(name, list) {
@@ -66,10 +70,10 @@ blocks = set_up_blocks({ nonce, language, editor, editor_pane: $("editor"), befo
 
 const engines = watch_engines({ language, machine, on_machine_gone: words => ball.give_up(words) });
 
-// ---- what is written is kept ----
+// ---- saving ----
 const store = new Store(words => show_trouble("storage", words));
 $("storage-seen").addEventListener("click", () => show_trouble("storage", ""));
-const opened = new Map(); // documents of this page as they were left, whatever the browser keeps
+const opened = new Map(); // documents of this page as left, even if the browser saves nothing
 const version_every = 60_000; // milliseconds of writing
 let keeping = 0, last_version = 0;
 function stop_keeping() {
@@ -83,7 +87,7 @@ function keep_now() {
   if (mark) last_version = Date.now();
   store.keep(workspace, mark);
 }
-/** What it is now becomes a state to come back to. */
+/** Makes the current state a version to return to. */
 function mark_version() {
   if (keeping) keep_now();
   last_version = Date.now();
@@ -93,7 +97,7 @@ function keep_soon() {
   stop_keeping();
   keeping = setTimeout(keep_now, 400);
 }
-window.addEventListener("pagehide", () => { if (keeping) keep_now(); }); // a tab in which nothing changed leaves the others' alone
+window.addEventListener("pagehide", () => { if (keeping) keep_now(); }); // a tab without changes must not overwrite another one's
 
 // ---- findings below the text ----
 function show_findings(list) {
@@ -120,7 +124,7 @@ function show_findings(list) {
   tell_count();
 }
 let telling = 0, told_count = "";
-/** A screen reader says it when the typing rests, and only when it has changed. */
+/** Announces findings to screen readers when typing pauses, and only changes. */
 function tell_count() {
   clearTimeout(telling);
   telling = setTimeout(() => {
@@ -129,7 +133,7 @@ function tell_count() {
     told_count = words;
   }, 1500);
 }
-/** What a run was refused for may stand in a file that is not shown. */
+/** The mistake that prevents a run may be in a file that is not shown. */
 function show_mistakes(document) {
   const first = first_error(document);
   if (first && Object.hasOwn(workspace.files, first.name)) go_to(first.name, first.line);
@@ -153,12 +157,12 @@ function show_tabs() {
   $("drop-file").disabled = tabs.length < 2;
   $("what").textContent = `${kind_of(workspace.active).words}: ${workspace.active}`;
   show_test_button();
-  verdicts.changed(workspace.files);
+  verdicts?.changed(workspace.files);
 }
 function show_test_button() {
   $("test").textContent = workspace.lesson || workspace.task ? "Am I done?" : "Test";
   $("test").hidden = !tests_of(workspace).length;
-  $("test").setAttribute("aria-disabled", String(!!ball.busy)); // a disabled one would lose the focus
+  $("test").setAttribute("aria-disabled", String(!!ball.busy)); // a disabled button would lose the focus
 }
 $("tabs").addEventListener("keydown", event => {
   const names = Object.keys(workspace.files), at = names.indexOf(workspace.active);
@@ -173,23 +177,27 @@ function show_file(name) {
   workspace.active = name;
   show_tabs();
   const course = ending_of(name) === "svg";
-  $("format").disabled = course;
+  $("format").disabled = course || is_foreign(name);
   $("course-picture").hidden = !course;
   URL.revokeObjectURL(pictured);
-  // As a picture it runs no script and fetches nothing.
+  // As an image it runs no script and loads nothing.
   if (course) $("course-picture").src = pictured = URL.createObjectURL(new Blob([workspace.files[name]], { type: "image/svg+xml" }));
   $("course-picture").alt = course ? `the course ${name}` : "";
   editor.show(name, workspace.files[name]);
+  const runs_foreign = is_foreign(program_of(workspace, name));
+  if (edu || runs_foreign) with_edu(edu => edu.show(runs_foreign));
   blocks.open();
   keep_soon();
 }
 function open_workspace(next) {
+  ++picked;
   close_dialogs();
   editor.reset();
   workspace = next;
   workspace.title ||= workspace.main || program_of(workspace, workspace.active) || workspace.active;
   $("verdicts").hidden = true;
   world.show();
+  $("bench").dataset.open = "";
   show_file(workspace.active);
   steps.show(workspace);
   show_task_of();
@@ -201,9 +209,9 @@ function show_task_of(stays = false) {
   if (workspace.task && !workspace.lesson) show_own_task(workspace);
   show_class_buttons(workspace);
 }
-/** What was open before, and the way back to it: also after the page was loaded again. */
+/** Shows what was open before, with a way back: also after a reload. */
 function show_came(words = "", more = []) {
-  const whose = workspace.name ? `Handed in by “${workspace.name}”.` : ""; // which stays when the rest is seen
+  const whose = workspace.name ? `Handed in by “${workspace.name}”.` : ""; // stays after the rest is dismissed
   const back = workspace.before ? [button("Back to what you had", go_back)] : [], buttons = [...more, ...back];
   $("came").hidden = !whose && !buttons.length;
   $("came").replaceChildren(element("span", {}, words || whose || `This is “${workspace.title}”.`), ...buttons, ...buttons.length ? [button("OK", () => {
@@ -212,21 +220,21 @@ function show_came(words = "", more = []) {
     show_came();
   })] : []);
 }
-/** Something else comes, and the browser's own Back leads to what was there. */
+/** Opens something else; the browser's Back returns to the previous document. */
 function exchange(next, words, more = []) {
   const other = next.document !== workspace.document;
   change_to(next, words, more);
-  // An address that was opened has a step of its own already.
+  // An opened address already has a history entry.
   history[other && history.state ? "pushState" : "replaceState"]({ document: next.document }, "");
 }
 window.addEventListener("popstate", async ({ state }) => {
   if (!state || state.document === workspace.document) return;
   const next = await document_of(state.document);
-  if (history.state?.document !== state.document) return; // somebody went on meanwhile
+  if (history.state?.document !== state.document) return; // the user moved on meanwhile
   if (!next) say("This browser no longer has it.", "bad");
   else change_to({ ...next, before: "" }, `“${next.title}”, as you left it.`);
 });
-/** What was there stays as it is, in a place of its own. */
+/** Keeps the previous document unchanged, in its own place. */
 function change_to(next, words, more = []) {
   if (workspace.document && Object.keys(workspace.files).length) {
     opened.set(workspace.document, structuredClone(workspace));
@@ -243,9 +251,16 @@ async function go_back() {
   if (before) exchange({ ...before, before: "" }, `“${before.title}”, as you left it.`);
   else say("This browser no longer has it.", "bad");
 }
-/** A lesson or an example of the page. */
-const pick = item => resume({ ...checked(as_workspace(item)), document: item.id, title: item.title },
-  `${item.readme ? "The lesson" : "The example"} “${item.title}”`);
+let picked = 0;
+/** Opens a lesson or an example, possibly a promised one, unless something else is opened while it loads. */
+async function pick(item) {
+  const mine = ++picked, whole = await Promise.resolve(item).then(load_item).catch(() => null);
+  if (picked !== mine) return;
+  if (whole) open_item(whole);
+  else say(not_loaded, "bad");
+}
+const open_item = item => resume({ ...checked(as_workspace(item)), document: item.id, title: item.title },
+  `${item.job ? "The lesson" : "The example"} “${item.title}”`);
 /** Opens what others begin with, as it was left where somebody has worked on it. */
 async function resume(fresh, what) {
   const mine = await document_of(fresh.document);
@@ -285,7 +300,7 @@ $("new-file").addEventListener("click", () => ask_name("New file", "new.orb", na
   editor.focus();
   say(new_words(name));
 }));
-/** What a new file is good for. */
+/** What a new file is for. */
 function new_words(name) {
   const kind = kind_of(name);
   return kind.program ? `${name} is a separate ${kind.words}: Run runs the program that is shown.`
@@ -332,7 +347,7 @@ async function take_files(list) {
   }
   const names = Object.keys(files);
   if (names.length) {
-    const stays = names.every(name => !kind_of(name).program); // a test, say, comes to its program
+    const stays = names.every(name => !kind_of(name).program); // a test, for example, is added to its program
     const all = stays ? { ...workspace.files, ...files } : files;
     if (Object.keys(all).length > limits.files) troubles.push(`${limit_words.files}.`);
     else {
@@ -354,18 +369,14 @@ document.addEventListener("drop", event => {
 
 // ---- sharing ----
 const share = set_up_share({ workspace: () => workspace });
-/** Takes what the address holds, and then takes it off the address: what is written from now on is not in it. */
+/** Reads the workspace in the address, then removes it from the address, which would not follow further changes. */
 async function take_address(hash) {
   const named = /^#(?:lesson|example)=(.*)$/.exec(hash);
   if (named) {
     const id = decodeURIComponent(named[1]);
-    const groups = await load_library().catch(() => {
-      throw new AddressError("The lessons and examples could not be loaded. Check your network connection and reload the page.");
-    });
-    const all = groups.flatMap(group => group.items);
-    const item = all.find(one => one.id === id) ?? all.find(one => one.main === id) ?? all.find(one => Object.hasOwn(one.files, id));
+    const item = await item_named(id).then(found => found && load_item(found)).catch(() => { throw new AddressError(not_loaded); });
     if (!item) throw new AddressError(`The address is damaged: there is no lesson or example “${id}”.`);
-    return () => pick(item);
+    return () => open_item(item);
   }
   if (!hash.startsWith("#p=")) throw new AddressError(`The address ends in “${hash.slice(0, 30)}”, which this page does not understand.`);
   const { workspace: next, all, left_out } = await from_fragment(hash);
@@ -392,28 +403,32 @@ async function open_address() {
 window.addEventListener("hashchange", open_address);
 
 // ---- the ball, tests, flashing ----
-const steps = first_steps({ on_next: async () => {
-  const [first] = (await load_library()).flatMap(group => group.items).filter(item => item.readme);
-  pick(first);
-} });
-const ball = new Ball({ machine, player, workspace: () => workspace, on_mistakes: show_mistakes, on_place: go_to, on_busy: show_test_button,
+const steps = first_steps({ on_next: () => pick(first_lesson()), point_at: pattern => editor.point_at(pattern) });
+let edu = null;
+const with_edu = on_demand(async () => edu = await (await import("./page/edu/edu.js")).set_up_edu({ machine, ball, workspace: () => workspace, keep: keep_soon, sounds: () => is_loud ? with_sounds : null }));
+const ball = new Ball({ machine, player, workspace: () => workspace, remark, on_mistakes: show_mistakes, on_place: go_to, on_busy: show_test_button,
+  foreign: name => is_foreign(name) ? with_edu : null,
   on_begin() {
     mark_version();
     show_view("play");
     show_program();
     steps.ran();
+    if (is_loud) with_sounds(sounds => sounds.switch_on(true)); // browsers allow it only in a click
   } });
-const verdicts = new Verdicts({ machine, ball, workspace: () => workspace, on_place: go_to, on_hand_in: () => hand_in(),
+const judge = asked => Object.keys(asked.files).some(is_foreign) ? with_edu(edu => edu.test(asked)) : machine.call("test", asked);
+let verdicts = null;
+const with_verdicts = on_demand(async () => verdicts = new (await import("./page/verdicts.js")).Verdicts({ machine, judge, ball, map: { area, on_draw, redraw, shape }, workspace: () => workspace, on_place: go_to, on_hand_in: () => hand_in(),
   on_passed() {
+    if (is_loud) with_sounds(sounds => sounds.cheer());
     if (!workspace.lesson || workspace.name) return workspace.task ? undefined : null;
     mark_done(workspace.lesson);
     show_task_of(true);
     const next = lesson_after(workspace.lesson);
     return next && (() => pick(next));
-  } });
+  } }));
 const with_class = on_demand(async () => (await import("./page/class.js")).set_up_class({
-  machine, workspace: () => workspace, share, address_of, keep: keep_soon,
-  mistakes: (results, files) => verdicts.mistakes(results, files),
+  judge, workspace: () => workspace, share, address_of, keep: keep_soon,
+  mistakes: (tested, files) => with_verdicts(verdicts => verdicts.mistakes(tested, files)),
   write_file(name, text) {
     workspace.files[name] = text;
     editor.forget(name);
@@ -432,13 +447,13 @@ const with_class = on_demand(async () => (await import("./page/class.js")).set_u
 const hand_in = () => with_class(parts => parts.hand_in());
 $("hand-in").addEventListener("click", hand_in);
 for (const id of ["lesson-write", "task-edit", "share-lesson"]) $(id).addEventListener("click", () => with_class(parts => parts.write()));
-const mine = set_up_mine({ store, workspace: () => workspace, on_open: (next, words) => { exchange(next, words); show_view("work"); },
-  begin: () => checked({ files: { "program.orb": welcome }, active: "program.orb" }) });
+const with_mine = on_demand(async () => (await import("./page/mine.js")).set_up_mine({ store, workspace: () => workspace, on_open: (next, words) => { exchange(next, words); show_view("work"); },
+  begin: () => ({ ...checked({ files: { "program.orb": welcome }, active: "program.orb" }), document: new_id() }) }));
 const world = set_up_world({ workspace: () => workspace, keep: keep_soon });
 const with_robots = on_demand(async () => (await import("./page/flash.js")).set_up_flash({ machine, workspace: () => workspace, ball, on_mistakes: show_mistakes }));
 $("flash").addEventListener("click", () => with_robots(robots => robots.open()));
 
-/** A run shows its lines in the text of the program, so that one is shown. */
+/** A run marks lines in the program's text, so show that file. */
 function show_program() {
   const program = program_of(workspace, workspace.active);
   if (program && program !== workspace.active && !kind_of(workspace.active).program) show_file(program);
@@ -449,30 +464,51 @@ function test() {
   if (ball.busy) return;
   mark_version();
   show_view("play");
-  verdicts.run(ending_of(workspace.active) === "test" ? [workspace.active] : all.includes(beside) ? [beside] : all);
+  const names = ending_of(workspace.active) === "test" ? [workspace.active] : all.includes(beside) ? [beside] : all;
+  with_verdicts(verdicts => verdicts.run(names));
 }
 const start = () => ball.busy ? ball.stop() : ball.start(), instant = () => ball.instant(), stop = () => ball.stop();
 for (const [id, deed] of Object.entries({ run: start, instant, test })) $(id).addEventListener("click", deed);
 $("pick").addEventListener("click", () => show_library(pick));
-$("mine").addEventListener("click", () => { mark_version().then(mine.show); });
+$("mine").addEventListener("click", () => { mark_version().then(() => with_mine(mine => mine.show())); });
 $("task-fold").addEventListener("click", () => {
   const hidden = $("task").classList.toggle("folded");
   $("task-fold").setAttribute("aria-expanded", String(!hidden));
   $("task-fold").textContent = hidden ? "Show" : "Hide";
 });
 
-// ---- the menu: what is chosen in it, or pressed beside it, closes it ----
+// ---- menus: choosing an entry, or clicking outside, closes them ----
 $("print").addEventListener("click", () => window.print());
-document.addEventListener("click", ({ target }) => {
-  if (!$("menu").contains(target) || target.closest(".more-list") && !target.closest("#theme, .language")) $("menu").open = false;
-});
-$("menu").addEventListener("keydown", event => {
-  if (event.key !== "Escape" || !$("menu").open) return;
-  $("menu").open = false;
-  $("menu").firstElementChild.focus();
-});
+for (const menu of document.querySelectorAll("details.more")) {
+  document.addEventListener("click", ({ target }) => {
+    if (!menu.contains(target) || target.closest(".more-list") && !target.closest("#theme, #sound, .language")) menu.open = false;
+  });
+  menu.addEventListener("keydown", event => {
+    if (event.key !== "Escape" || !menu.open) return;
+    menu.open = false;
+    menu.firstElementChild.focus();
+  });
+}
 
-// ---- a narrow page shows one of both ----
+// ---- sounds, off unless switched on ----
+const sound_key = "orb-sound";
+let is_loud = false;
+try { is_loud = localStorage.getItem(sound_key) === "on"; } catch { /* no storage */ }
+const with_sounds = on_demand(async () => (await import("./page/sound.js")).make_sounds({ playback, watch }));
+function show_sound() {
+  $("sound").textContent = is_loud ? "Sounds: on" : "Sounds: off";
+  $("sound").setAttribute("aria-pressed", String(is_loud));
+}
+$("sound").addEventListener("click", () => {
+  is_loud = !is_loud;
+  try { localStorage.setItem(sound_key, is_loud ? "on" : "off"); } catch { /* for this visit only */ }
+  show_sound();
+  const wanted = is_loud;
+  with_sounds(sounds => sounds.switch_on(wanted));
+});
+show_sound();
+
+// ---- a narrow page shows one view at a time ----
 function show_view(view) {
   $("bench").dataset.view = view;
   for (const one of $("views").children) one.setAttribute("aria-pressed", String(one.dataset.view === view));
@@ -501,12 +537,12 @@ async function begin() {
   if (found) workspace = { ...found, document: found.document || new_id() };
   if (!await open_address()) {
     open_workspace(found ? workspace : { ...checked({ files: { "welcome.orb": welcome }, active: "welcome.orb" }), document: "welcome", title: "First steps" });
-    stop_keeping(); // nothing was written in it yet, but perhaps in another tab
+    stop_keeping(); // nothing was changed in this tab, but perhaps in another
     history.replaceState({ document: workspace.document }, "");
   }
 }
 const begun = begin();
-// For whoever measures.
+// For measurements.
 machine.on("ready", () => begun.then(() => { document.documentElement.dataset.ready ??= Math.round(performance.now()); }));
 
 // ---- without a network ----

@@ -1,5 +1,5 @@
-// The first script. The page is seen before anything else runs; then what takes longest, the engine, begins beside the
-// page's own script. What the workers say until that listens is kept, and so is the button that somebody has pressed.
+// The first script. The page is painted before anything else runs; then the slowest part, the engine, starts in
+// parallel with the page's script. Messages of the workers and a pressed button are kept until that script listens.
 
 function begun() {
   const worker = new Worker(new URL("./worker.js", import.meta.url), { type: "module" }), said = [];
@@ -9,7 +9,7 @@ function begun() {
 let pressed = null;
 const remember = ({ target }) => { pressed = target.closest("button") ?? pressed; };
 document.addEventListener("click", remember);
-// A page in the background draws no frames.
+// A page in the background gets no frames.
 await new Promise(done => { requestAnimationFrame(() => setTimeout(done)); setTimeout(done, 200); });
 globalThis.orb_workers = { language: begun(), machine: begun() };
 await import("./page.js");

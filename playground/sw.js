@@ -1,6 +1,6 @@
-// Keeps the playground on this device, so that it works without a network. The build puts in the names
-// of the files and a hash of all that is in them: another build has another cache. What is loaded on demand
-// is kept once it was; `soon` is the part of it that is loaded in the background once the page is idle.
+// Caches the playground on this device, so that it works offline. The build inserts the file names and a hash of their
+// contents: each build has its own cache. Files loaded on demand are cached when first used; those in `soon` are loaded
+// in the background once the page is idle.
 const cache_name = "orb-playground-/*{hash}*/";
 const core = /*{core}*/[];
 const on_demand = /*{on_demand}*/[];
@@ -8,14 +8,14 @@ const soon = /*{soon}*/[];
 
 self.addEventListener("install", event =>
   event.waitUntil(caches.open(cache_name).then(cache => cache.addAll(core.map(url => new Request(url, { cache: "no-cache" }))))));
-// The pages that are open keep what they began with; a new build comes with the next visit.
+// Open pages keep their version; a new build is used at the next visit.
 self.addEventListener("activate", event => event.waitUntil((async () => {
   for (const name of await caches.keys())
     if (name.startsWith("orb-playground-") && name !== cache_name) await caches.delete(name);
   await self.clients.claim();
 })()));
 
-/** What the page has loaded before this worker took over, and what it may want without a network. */
+/** Caches what the page loaded before this worker took over, and what it may need offline. */
 async function keep({ loaded, all }) {
   const cache = await caches.open(cache_name), { scope } = self.registration;
   const names = loaded.map(url => url.slice(scope.length)).filter(name => on_demand.includes(name));

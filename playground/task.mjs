@@ -1,9 +1,9 @@
-// A task of examples/lessons as the page gives it.
+// Prepares a task of examples/lessons for the page.
 
-/** In one folder nothing is further up. */
+/** In a single folder there is no parent. */
 export const flat = text => text.replaceAll(/\.\.\/\.\.\/(?:\w+\/)?/g, "");
 
-/** A block is replaced by the comment `page:` that follows it, and what is to be typed into a terminal is a button there. */
+/** Replaces a block by the comment `page:` after it, and terminal commands by buttons. */
 export function for_page(readme) {
   const blocks = flat(readme).trim().split(/\n\n+/), said = block => /^<!-- page: ([^]*) -->$/.exec(block ?? "")?.[1];
   return blocks.flatMap((block, i) => {
@@ -12,5 +12,11 @@ export function for_page(readme) {
   }).map(unwrapped).join("\n\n") + "\n";
 }
 
-/** A paragraph is one line, and so is each entry of a list: the keys of translations/ have no ends of lines of their own. */
+/** The paragraph with the job, and the list that it may lead to. */
+export function job_in(task) {
+  const blocks = task?.trim().split("\n\n") ?? [], at = blocks.findIndex(block => /^\*\*[^*]+:\*\*/.test(block));
+  return at < 0 ? undefined : blocks.slice(at, at + (blocks[at].endsWith(":**") ? 2 : 1)).join("\n\n");
+}
+
+/** Joins the lines of each paragraph and list item: the keys of translations/ have no line breaks. */
 const unwrapped = block => block.startsWith("    ") ? block : block.replaceAll(/\n *(?!\d+\. |- )/g, " ");

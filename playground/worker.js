@@ -6,7 +6,9 @@ import { instance_in_parts } from "./split/parts.js";
 
 const frame_ms = 33;
 class Missing extends Error {}
-/** The bytes of what few visits need, in a file whose name the build knows: a call is waiting for them. */
+/**
+ * The bytes of the rarely used part, from a file named by the build; synchronous, because a call waits for them.
+ */
 function rest_of_wasm() {
   const request = new XMLHttpRequest();
   request.open("GET", new URL(ORB_REST, import.meta.url), false);
@@ -21,7 +23,7 @@ function rest_of_wasm() {
 }
 
 let engine;
-let clock = null; // of the live run: robot time `robot` at the moment `real`, and how much faster it runs
+let clock = null; // for the live run: robot time `robot` at the moment `real`, and the speed factor
 
 const robot_now = () => clock.paused ? clock.robot : clock.robot + (performance.now() - clock.real) * clock.speed;
 const post = (event, data) => postMessage({ event, data });
@@ -57,7 +59,7 @@ function end() {
     answer = engine.call("live_end");
   } catch (error) {
     if (!(error instanceof OrbError)) throw error;
-    answer = { ending: { words: error.message } }; // such as a macro that the robot refused
+    answer = { ending: { words: error.message } }; // such as a macro refused by the robot
   }
   post_said();
   post("end", answer);
@@ -80,20 +82,36 @@ const own = {
   pause: () => set_clock({ paused: true }),
   resume: () => set_clock({ paused: false }),
   speed: ({ factor }) => set_clock({ speed: factor }),
+  /** A `deed` of page/edu/machine.js, which few visits need. */
+  async edu_run({ deed, ...params }) {
+    edu ??= import("./page/edu/machine.js").then(({ make_machine }) => make_machine({ call: engine.call, post }), () => {
+      edu = null;
+      throw new OrbError({ code: 1, message: "a part of orb is not on this device yet: connect to the network once" });
+    });
+    return (await edu)[deed](params);
+  },
 };
+let edu = null;
 
-/** Tells what the last answers are made of, so that the page can say them in its language. */
+/** Sends the parts of the last answers' messages, so that the page can translate them. */
 function post_said() {
   const said = engine.call("said");
   if (Object.keys(said).length) post("said", said);
 }
 
 function answer({ id, method, params = {} }) {
-  try {
-    const result = Object.hasOwn(own, method) ? own[method](params) : engine.call(method, params);
+  const settle = result => {
     post_said();
     postMessage({ id, result });
+  };
+  try {
+    const result = Object.hasOwn(own, method) ? own[method](params) : engine.call(method, params);
+    if (result instanceof Promise) result.then(settle, refuse);
+    else settle(result);
   } catch (error) {
+    refuse(error);
+  }
+  function refuse(error) {
     // Not an answer of orb: after that nothing in its memory can be relied on.
     if (!(error instanceof OrbError)) post("broken", { message: error instanceof Missing ? error.message : `${method}: ${error.message}` });
     else post_said();
@@ -101,7 +119,7 @@ function answer({ id, method, params = {} }) {
   }
 }
 
-// What comes while the wasm is loading waits.
+// Messages that arrive while the wasm loads wait here.
 const waiting = [];
 onmessage = ({ data }) => engine ? answer(data) : waiting.push(data);
 load_engine(instance_in_parts(instance_of, rest_of_wasm)).then(made => {

@@ -9,23 +9,23 @@
 
 namespace orb::protocol {
 
-/// The way to a robot over Bluetooth LE, in its order.
+/// The steps to a robot over Bluetooth LE, in order.
 enum class BleStep : std::uint8_t {
-  Bus,      ///< the Bluetooth service of the computer answers
+  Bus,      ///< the computer's Bluetooth service answers
   Adapter,  ///< its radio is on
-  Find,     ///< the robot is seen
-  Connect,  ///< it is connected
+  Find,     ///< the robot is found
+  Connect,  ///< the robot is connected
   Services, ///< its characteristics are known
   AntiDos,  ///< the three words of spec/ble.def, from here
   TxPower,
   Wake,     ///< … to here
-  Subscribe ///< its packets come as notifications
+  Subscribe ///< its packets arrive as notifications
 };
 
 struct BleStepInfo {
   BleStep step;
-  std::string_view word;  ///< in plans of faults
-  std::string_view doing; ///< for messages: "the link was lost while …"
+  std::string_view word;  ///< used in fault plans
+  std::string_view doing; ///< used in messages: "the link was lost while …"
 };
 
 inline constexpr auto ble_steps = std::to_array<BleStepInfo>({
@@ -44,7 +44,7 @@ constexpr const BleStepInfo& info(BleStep step) {
   return ble_steps[static_cast<std::size_t>(step)];
 }
 
-/// The step in which a characteristic is written to; none for the others.
+/// Returns the step that writes to a characteristic; nullopt if none does.
 constexpr std::optional<BleStep> step_of(spec::BleCharacteristic characteristic) {
   switch (characteristic) {
   case spec::BleCharacteristic::AntiDos:

@@ -26,16 +26,16 @@ constexpr auto flags = std::to_array<Flag>({{"no-daemon", &BleFaultPlan::no_daem
                                             {"undriven", &BleFaultPlan::undriven},
                                             {"mute", &BleFaultPlan::mute}});
 
-struct Place {
+struct StepWord {
   std::string_view word;
   std::optional<BleStep> BleFaultPlan::*member;
 };
 
-constexpr auto places = std::to_array<Place>({{"drop@", &BleFaultPlan::drop},
-                                              {"drop-once@", &BleFaultPlan::drop_once},
-                                              {"refuse@", &BleFaultPlan::balk},
-                                              {"refuse-once@", &BleFaultPlan::balk_once},
-                                              {"vanish@", &BleFaultPlan::vanish}});
+constexpr auto places = std::to_array<StepWord>({{"drop@", &BleFaultPlan::drop},
+                                                 {"drop-once@", &BleFaultPlan::drop_once},
+                                                 {"refuse@", &BleFaultPlan::balk},
+                                                 {"refuse-once@", &BleFaultPlan::balk_once},
+                                                 {"vanish@", &BleFaultPlan::vanish}});
 
 constexpr auto others = std::to_array<std::string_view>(
     {"pieces=", "links=", "late=", "interval=", "lose=", "refuse=", "seed="});
@@ -53,7 +53,7 @@ tl::expected<void, std::string> read_step(std::string_view item, std::string_vie
                                           std::optional<BleStep>& step) {
   std::vector<std::string_view> words;
   for (const auto& row : ble_steps) {
-    // Nobody is connected before.
+    // There is no link to drop before.
     if (row.step < BleStep::Connect)
       continue;
     words.push_back(row.word);
@@ -119,7 +119,7 @@ tl::expected<void, std::string> read_value(std::string_view item, std::string_vi
                   did_you_mean(name, words, fmt::format("use one of {}", fmt::join(words, " ")))));
 }
 
-tl::expected<void, std::string> read_item(std::string_view item, BleFaultPlan& plan) {
+tl::expected<void, std::string> read_ble_item(std::string_view item, BleFaultPlan& plan) {
   for (const auto& flag : flags)
     if (item == flag.word) {
       plan.*flag.member = true;
@@ -136,7 +136,8 @@ tl::expected<void, std::string> read_item(std::string_view item, BleFaultPlan& p
 
 tl::expected<BleFaultPlan, std::string> parse_ble_fault_plan(std::string_view text) {
   BleFaultPlan plan;
-  const auto read = read_words(text, [&](std::string_view item) { return read_item(item, plan); });
+  const auto read =
+      read_words(text, [&](std::string_view item) { return read_ble_item(item, plan); });
   if (!read)
     return tl::unexpected(read.error());
   return plan;

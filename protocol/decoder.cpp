@@ -10,7 +10,7 @@ using spec::async_header_size;
 using spec::command_header_size;
 using spec::response_header_size;
 
-/// Where the next SOP1 stands at or after `from`; the size when there is none.
+/// Returns the position of the next SOP1 at or after `from`; the size if there is none.
 std::size_t find_start(ByteView bytes, std::size_t from) {
   if (from < bytes.size() && bytes[from] == spec::sop1)
     return from;
@@ -74,7 +74,7 @@ std::optional<Item> Decoder::next() {
     const auto found = at_end ? Match::No : match(window.subspan(start), item);
     const auto given_up = found == Match::Incomplete && expiry_ == Expiry::Reported;
     if (!at_end && (found == Match::No || given_up)) {
-      ++start; // this SOP1 begins nothing
+      ++start; // no packet begins at this SOP1
       continue;
     }
     if (start > at_) {
@@ -107,7 +107,7 @@ Decoder::Match Decoder::match(ByteView bytes, Item& item) const {
 
 namespace {
 
-/// Fills in payload and raw bytes, and tells whether the checksum holds.
+/// Sets payload and raw bytes. Returns true if the checksum is right.
 bool complete(ByteView bytes, std::size_t header, std::size_t payload, Item& item) {
   item.raw = bytes.first(header + payload + 1);
   item.data = bytes.subspan(header, payload);
@@ -120,9 +120,9 @@ bool complete(ByteView bytes, std::size_t header, std::size_t payload, Item& ite
 
 } // namespace
 
-/// Whether the first SOP1 is a stray byte in front of a whole packet, as in FF FF FF 00 01 ….
-/// `bytes` end before the packet that would begin here does: as if they arrived one by one, what is
-/// whole first counts, so the answer does not depend on the pieces in which they come.
+/// Returns true if the first SOP1 is a stray byte before a whole packet, as in FF FF FF 00 01 ….
+/// `bytes` end before the packet that would begin here. The packet that is complete first wins, as
+/// if bytes arrived one by one, so the result does not depend on how the stream is cut.
 bool Decoder::is_stray(ByteView bytes) const {
   const auto other = std::find_if(bytes.begin(), bytes.end(),
                                   [](std::uint8_t byte) { return byte != spec::sop1; });
@@ -130,7 +130,8 @@ bool Decoder::is_stray(ByteView bytes) const {
   if (run < spec::sop_size)
     return false;
   Item after;
-  // The packet's SOP1 and SOP2 are the last two of the run, or SOP2 is another byte after it.
+  // SOP1 and SOP2 of the packet are the last two bytes of the run, or SOP2 is a different byte
+  // after it.
   for (const auto start : {run - 2, run - 1})
     if (start > 0 && match_command(bytes.subspan(start), after) == Match::Whole)
       return true;
@@ -184,6 +185,17 @@ Decoder::Match Decoder::match_answer(ByteView bytes, Item& item) const {
     return Match::Incomplete;
   item.kind = is_async ? Item::Kind::Async : Item::Kind::Response;
   return complete(bytes, header, length - 1, item) ? Match::Whole : Match::Damaged;
+}
+
+std::size_t understood(ByteView bytes, Direction direction) {
+  Decoder decoder(direction);
+  decoder.feed(bytes);
+  std::size_t count = 0;
+  while (const auto item = decoder.next())
+    if (item->kind == Item::Kind::Command || item->kind == Item::Kind::Response ||
+        item->kind == Item::Kind::Async)
+      count += item->raw.size();
+  return count;
 }
 
 } // namespace orb::protocol

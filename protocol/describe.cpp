@@ -8,7 +8,7 @@
 namespace orb::protocol {
 namespace {
 
-/// Text in quotes with what is not printable as an escape.
+/// Quotes text, with escapes for unprintable bytes.
 std::string quoted(ByteView bytes) {
   std::string out = "\"";
   for (const auto byte : bytes) {
@@ -28,7 +28,7 @@ std::string quoted(ByteView bytes) {
   return out + "\"";
 }
 
-/// What the number of a field stands for; empty for a plain number.
+/// Returns the meaning of a field's number; empty for a plain number.
 std::string meaning(const FieldValue& value) {
   const auto bits = static_cast<std::uint32_t>(value.number);
   if (value.field->unit == "nibbles")
@@ -61,7 +61,7 @@ std::size_t size_of(const FieldValue& value) {
                                             : value.bytes.size();
 }
 
-/// Bytes as text: without the NULs at its end, others beyond ASCII as U+0080 to U+00FF.
+/// Converts bytes to text: drops trailing NULs and maps bytes beyond ASCII to U+0080 to U+00FF.
 std::string plain_text(ByteView bytes) {
   std::string out;
   while (!bytes.empty() && bytes.back() == 0)
@@ -97,7 +97,7 @@ Parts parts_of(std::string_view name, std::span<const spec::Field> fields, ByteV
   return parts;
 }
 
-/// The data as `name value` with commas, then what no field names.
+/// Formats the data as `name value` with commas, followed by bytes that no field covers.
 std::string fields_text(std::span<const spec::Field> fields, ByteView data) {
   std::string out;
   std::size_t used = 0;
@@ -112,7 +112,7 @@ std::string fields_text(std::span<const spec::Field> fields, ByteView data) {
   return out;
 }
 
-/// The frames of a sensor stream by the mask that asked for them.
+/// Formats the frames of a sensor stream according to its mask.
 std::string frames_text(std::uint64_t mask, ByteView data) {
   std::string out;
   std::size_t at = 0;
@@ -132,7 +132,7 @@ std::string frames_text(std::uint64_t mask, ByteView data) {
   return out;
 }
 
-/// The frames of a stream as fields: the names repeat, a frame after the other.
+/// Converts the frames of a stream to fields: the names repeat for each frame.
 Parts stream_parts(std::string_view name, std::uint64_t mask, ByteView data) {
   Parts parts{name, {}, {}};
   for (bool more = true; more && !data.empty();) {

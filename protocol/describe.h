@@ -11,28 +11,27 @@
 
 namespace orb::protocol {
 
-/// A field of a packet: a number and what it stands for, or a text.
+/// A field of a packet: a number with its meaning, or a text.
 struct NamedValue {
   std::string name;
   std::optional<std::int64_t> number;
-  std::string text; ///< of a number: its meaning, empty where it has none
+  std::string text; ///< meaning of a number, which may be empty; otherwise the text
 };
 
-/// A packet taken apart.
+/// A packet split into fields.
 struct Parts {
-  std::string_view name; ///< of the command, also of the one that is answered, or of the message
+  std::string_view name; ///< of the command, also of one that is answered, or of the message
   std::vector<NamedValue> fields;
-  Bytes rest; ///< of the data: what no field names
+  Bytes rest; ///< data bytes that no field covers
 };
 
-/// Puts packets into words, every field named. It remembers the commands it has described, so that
-/// an answer's fields, which only its SEQ ties to a command, and the values of a sensor stream have
-/// names too.
+/// Describes packets with all fields named. Remembers commands, because only SEQ ties an answer to
+/// its command, and because a sensor stream depends on the mask requested.
 class Describer {
 public:
-  /// One line without a line end.
+  /// Returns one line without a line end.
   std::string describe(const Item& item);
-  /// The same as values, of a whole packet.
+  /// Returns the fields of a whole packet.
   Parts parts(const Item& item);
 
 private:
@@ -41,7 +40,7 @@ private:
   std::string response(const Item& item);
   std::string async(const Item& item) const;
 
-  /// By SEQ: the command last seen with it.
+  /// The last command with each SEQ.
   std::array<const spec::CommandInfo*, UINT8_MAX + 1> asked_{};
   std::uint64_t stream_mask_ = 0;
 };

@@ -36,7 +36,7 @@ V2Message what_of(const spec::V2Says& field) {
   return field.message;
 }
 
-/// The fields of the rows of `what`, one after the other, as far as the data goes.
+/// Formats the fields of kind `what` in order, as far as the data reaches.
 template <class Fields, class What>
 std::string values(const Fields& fields, What what, ByteView data) {
   std::string out;
@@ -86,7 +86,7 @@ std::string_view name_of(const PacketV2& packet) {
   return row == nullptr ? std::string_view() : row->name;
 }
 
-/// What decides how later samples are read.
+/// Remembers requests that determine the content of later samples.
 void DescriberV2::note(const PacketV2& packet) {
   const auto* row = spec::find_v2_command(packet.did, packet.cid);
   if (row == nullptr || is_message(packet) || spec::has(packet.flags, spec::V2Flag::Response) ||

@@ -11,18 +11,18 @@
 
 namespace orb::protocol {
 
-/// Says what v2 packets mean. It hears both directions: what a sample holds depends on what was
-/// asked for before.
+/// Describes v2 packets. Needs both directions, because the content of a sample depends on earlier
+/// requests.
 class DescriberV2 {
 public:
-  /// One line, every field named.
+  /// Returns one line with every field named.
   std::string describe(const ItemV2& item);
-  /// What the data of a packet means: `speed 60, heading 90, flags 0`; empty where neither the
-  /// tables nor what was asked before say it.
+  /// Describes the data of a packet: `speed 60, heading 90, flags 0`; empty if neither the tables
+  /// nor earlier requests tell.
   std::string fields_of(const PacketV2& packet) const;
 
 private:
-  /// The services that an RVR streams under a token of a processor, and how wide each value is.
+  /// A service that an RVR's processor streams under a token, with the width of its values.
   struct Service {
     const spec::V2ServiceInfo* row;
     int bits;
@@ -38,7 +38,7 @@ private:
   std::map<Token, std::vector<Service>> services_;
 };
 
-/// The name of the command or message; empty where no row has it.
+/// Returns the name of the command or message; empty if no row has it.
 std::string_view name_of(const PacketV2& packet);
 
 } // namespace orb::protocol

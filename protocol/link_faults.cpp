@@ -12,18 +12,18 @@
 namespace orb::protocol {
 namespace {
 
-/// How long the first part of a packet waits for its rest before it is passed on as it is.
+/// How long the first part of a packet waits for its rest before it is passed on alone.
 constexpr Duration hold_time = 100ms;
-/// Time between the pieces of a packet that is split.
+/// Time between the pieces of a split packet.
 constexpr Duration split_gap = 1ms;
-/// The raster on which merged bytes arrive; about the interval at which a radio link is polled.
+/// Interval at which merged bytes arrive; about the polling interval of a radio link.
 constexpr Duration merge_raster = 20ms;
-/// The message that comes in bursts.
+/// The message used for bursts.
 constexpr auto storm_message = static_cast<std::uint8_t>(spec::AsyncId::SensorData);
 constexpr std::uint64_t storm_most_messages = 8;
 constexpr std::uint64_t storm_most_payload = 80; // bytes; a full sensor frame has up to 64
-constexpr double percents = 100;                 // are the whole
-constexpr std::uint64_t stray_most_bytes = 3;    // real balls were seen to send one or two
+constexpr double percents = 100;                 // in a whole
+constexpr std::uint64_t stray_most_bytes = 3;    // real balls have been seen to send one or two
 
 constexpr std::array<std::string_view, 14> words = {
     "drop=", "flip=",  "dup=", "dup-request=", "storm=", "delay=",       "split",
@@ -40,7 +40,7 @@ bool read_delay_range(std::string_view text, FaultPlan& plan) {
   return true;
 }
 
-/// Where an item's value goes, by the kind of value it takes; null where it takes another kind.
+/// Returns the value set by an item, if it is of that type; otherwise null.
 double* rate_of(FaultPlan& plan, std::string_view name) {
   return name == "drop="          ? &plan.drop
          : name == "flip="        ? &plan.flip
@@ -79,7 +79,7 @@ tl::expected<void, std::string> read_item(std::string_view item, FaultPlan& plan
     return {};
   }
   if (name == "seed=" || name == "stale=") {
-    constexpr std::uint64_t most_stale = 1000; // more than any link was seen to keep
+    constexpr std::uint64_t most_stale = 1000; // more than any known link buffers
     const auto count = parse_number<std::uint64_t>(value);
     if (!count || (name == "stale=" && *count > most_stale))
       return wrong_word(item, name == "seed=" ? "a seed is a whole number"
@@ -165,7 +165,7 @@ void FaultPipe::push(Direction direction, ByteView bytes, Instant now) {
   auto& flip = direction == Direction::ToBall ? plan_.flip_at : plan_.flip_answer_at;
   const auto bits = static_cast<std::uint64_t>(bytes.size()) * 8;
   if (flip && *flip >= way.bits_in && *flip < way.bits_in + bits) {
-    // The packet is found in what was sent; only what arrives is damaged.
+    // Find packets in the bytes sent; damage only what arrives.
     Bytes damaged(bytes.begin(), bytes.end());
     const auto bit = *flip - way.bits_in;
     damaged[bit / 8] = static_cast<std::uint8_t>(damaged[bit / 8] ^ 1U << bit % 8);
@@ -199,7 +199,7 @@ void FaultPipe::pass_item(Side& way, const Item& item, Instant now) {
   case Item::Kind::Noise: queue(way, item.raw, now); break;
   case Item::Kind::BadChecksum:
   case Item::Kind::Fragment:
-    queue(way, item.raw.first(1), now); // the decoder reports the rest once more
+    queue(way, item.raw.first(1), now); // the decoder reports the rest again
     break;
   }
 }
@@ -216,7 +216,7 @@ void FaultPipe::pass_item(Side& way, const ItemV2& item, Instant now) {
 }
 
 void FaultPipe::pass_packet(Side& way, ByteView bytes, What what, Instant now) {
-  const Bytes packet(bytes.begin(), bytes.end()); // the view dies with the next item
+  const Bytes packet(bytes.begin(), bytes.end()); // the view is invalid after the next item
   if (what == What::Answer && random_.chance(plan_.storm))
     queue_storm(way, now);
   const auto rate = what == What::Answer    ? plan_.dup
@@ -257,7 +257,7 @@ void FaultPipe::queue(Side& way, ByteView bytes, Instant now) {
   way.last_due = due;
 }
 
-/// A message of the ball that nobody asked for.
+/// Makes an unsolicited message from the ball.
 Bytes FaultPipe::message() {
   Bytes data(1 + random_.below(storm_most_payload));
   for (auto& byte : data)
@@ -272,7 +272,7 @@ Bytes FaultPipe::message() {
   return encode(packet);
 }
 
-/// The answer to a request of an earlier client.
+/// Makes the answer to a request of an earlier client.
 Bytes FaultPipe::old_answer() {
   const auto seq = static_cast<std::uint8_t>(random_.next());
   if (packets_ == spec::Packets::V1)

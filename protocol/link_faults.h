@@ -15,19 +15,19 @@
 
 namespace orb::protocol {
 
-/// What a bad link does to the bytes. Rates are probabilities per packet and direction; every draw
-/// comes from `seed`, so a plan does the same to the same traffic every time.
+/// Faults of a link. Rates are probabilities per packet and direction. All random numbers come from
+/// `seed`, so equal traffic suffers equal faults.
 struct FaultPlan {
-  double drop = 0;        ///< the packet vanishes
+  double drop = 0;        ///< the packet is lost
   double flip = 0;        ///< one bit of the packet is inverted, start bytes included
   double dup = 0;         ///< an answer arrives twice
   double dup_request = 0; ///< a command arrives twice
-  double storm = 0;       ///< a burst of async messages goes before an answer
+  double storm = 0;       ///< a burst of async messages precedes an answer
   Duration delay_least{};
-  Duration delay_most{};   ///< packets are late by a uniform draw, and never overtake each other
+  Duration delay_most{};   ///< upper limit of a uniform delay; packets never overtake each other
   bool split = false;      ///< packets arrive in pieces of random size
   bool merge = false;      ///< bytes arrive in lumps, every 20 ms
-  std::uint32_t stale = 0; ///< old answers and stray bytes waiting at open
+  std::uint32_t stale = 0; ///< old answers and stray bytes waiting when the link opens
   std::optional<std::uint64_t> cut;        ///< the link breaks after this many bytes to the ball
   std::optional<std::uint64_t> cut_answer; ///< … or after this many bytes from the ball
   std::optional<std::uint64_t> flip_at;    ///< inverts this bit of the stream to the ball, once
@@ -35,32 +35,32 @@ struct FaultPlan {
   std::uint64_t seed = 1;
 };
 
-/// Reads `drop=1%,flip=0.1%,dup=1%,delay=50..300ms,split,cut@1234,seed=7`; the error is a sentence
-/// that names the word which is wrong and the words there are.
+/// Parses `drop=1%,flip=0.1%,dup=1%,delay=50..300ms,split,cut@1234,seed=7`. The error is a sentence
+/// that names the wrong word and lists the valid ones.
 tl::expected<FaultPlan, std::string> parse_fault_plan(std::string_view text);
 
-/// The plan in the words that parse_fault_plan reads; `none` for a plan that does nothing.
+/// Returns the plan in the notation of parse_fault_plan; `none` for a plan without faults.
 std::string to_string(const FaultPlan& plan);
 
-/// Does to two streams of bytes what a plan says. It is not a link itself: whoever moves the bytes
-/// pushes them in where they are sent and takes them out when they are due.
+/// Applies a plan to two streams of bytes. It is not a link: its owner pushes the bytes sent and
+/// takes those that are due.
 class FaultPipe {
 public:
   explicit FaultPipe(const FaultPlan& plan, spec::Packets packets = spec::Packets::V1);
 
-  /// Bytes are sent at `now`; a packet may come in any number of pushes.
+  /// Sends bytes at `now`. A packet may be split over several pushes.
   void push(Direction direction, ByteView bytes, Instant now);
 
-  /// The next piece that has arrived by `now`; empty when there is none.
+  /// Returns the next piece that has arrived by `now`; empty if there is none.
   Bytes take(Direction direction, Instant now);
 
-  /// When take() will have more to give, `never` for not without a push.
+  /// When take() has more to return; `never` if it needs a push first.
   Instant next_due() const;
 
-  /// Whether the plan has cut the link: nothing passes any more.
+  /// Returns true once the plan has cut the link: nothing passes any more.
   bool cut() const { return cut_; }
 
-  /// The link is opened again: what was under way is lost, a cut has happened and does not again.
+  /// Reopens the link: bytes in transit are lost, and a cut does not happen again.
   void reconnect(Instant now);
 
 private:
@@ -72,7 +72,7 @@ private:
     Side(Direction which, spec::Packets packets);
     Direction direction;
     std::variant<Decoder, DecoderV2> decoder;
-    Instant held_until = never; ///< when the first part of a packet is passed on without its rest
+    Instant held_until = never; ///< when the first part of a packet is passed on alone
     std::deque<Piece> pieces;
     Instant last_due{};
     std::uint64_t bits_in = 0;
@@ -101,7 +101,7 @@ private:
   bool cut_ = false;
 };
 
-/// A Transport around a Transport, with a FaultPipe between.
+/// A Transport that passes another one through a FaultPipe.
 class FaultTransport : public Transport {
 public:
   FaultTransport(std::unique_ptr<Transport> inner, const FaultPlan& plan,
@@ -110,8 +110,6 @@ public:
   Instant now() const override { return inner_->now(); }
   tl::expected<void, LinkError> write(ByteView bytes) override;
   tl::expected<Bytes, LinkError> read(Instant deadline) override;
-
-  FaultPipe& pipe() { return pipe_; }
 
 private:
   tl::expected<void, LinkError> deliver();

@@ -11,13 +11,13 @@ namespace {
 
 constexpr std::string_view parting = " \t,;[](){}\"'|";
 constexpr std::string_view parting_in_front = " \t;[](){}\"'|"; // `12:00:01,234` is one word
-/// So many bytes are meant as bytes, whatever stands around them.
+/// A run of this many bytes is data, whatever surrounds it.
 constexpr std::size_t surely_bytes = 4;
-/// `12:00:01` is a time of day, `68:86:E7:00:11:22` the address of a robot.
+/// `12:00:01` is a time of day, `68:86:E7:00:11:22` a robot's address.
 constexpr std::size_t joined_least = 7;
 constexpr std::size_t digits_of_byte = 2;
 
-// The words by which logs tell who speaks; the first in a line counts.
+// Words by which logs tell the direction; the first in a line counts.
 constexpr std::string_view to_ball =
     "> >> -> --> => \u2192 tx send sent sending write wrote writing request out to command host "
     "client";
@@ -35,7 +35,7 @@ std::vector<std::string_view> words_of(std::string_view text, std::string_view b
   return words;
 }
 
-/// The bytes that a word stands for: `FF`, `ffff0001`, `0xa`, `0x8d0a`, `8d:0a:13:0d:00:d5`.
+/// Converts a word to bytes: `FF`, `ffff0001`, `0xa`, `0x8d0a`, `8d:0a:13:0d:00:d5`.
 std::optional<Bytes> bytes_of(std::string_view word) {
   const bool marked = word.starts_with("0x") || word.starts_with("0X");
   if (marked && word.size() == digits_of_byte + 1) // one digit
@@ -58,14 +58,14 @@ std::optional<Bytes> bytes_of(std::string_view word) {
   return bytes && !bytes->empty() ? bytes : std::nullopt;
 }
 
-/// Bytes in a line, and where they stand.
+/// Bytes found in a line, and their place.
 struct Run {
   std::size_t begin = 0;
   std::size_t end = 0;
   Bytes bytes;
 };
 
-/// The longest row of bytes; of two, the later.
+/// Returns the longest run of bytes; of two, the later.
 std::optional<Run> longest_run(std::string_view line) {
   std::optional<Run> best, run;
   for (const auto word : words_of(line, parting)) {
@@ -85,8 +85,8 @@ std::optional<Run> longest_run(std::string_view line) {
   return best;
 }
 
-/// `\x8d`, `\n`, `\\` or a character that stands for itself, at the front of `text`; how long it is
-/// goes to `size`. Nothing for what is no byte.
+/// Parses `\x8d`, `\n`, `\\` or a plain character at the front of `text`, and sets `size` to its
+/// length. nullopt if it is not a byte.
 std::optional<std::uint8_t> python_byte(std::string_view text, std::size_t& size) {
   size = 1;
   if (text.front() != '\\')
@@ -106,7 +106,7 @@ std::optional<std::uint8_t> python_byte(std::string_view text, std::size_t& size
                                       : std::optional(static_cast<std::uint8_t>(means[at]));
 }
 
-/// `bytearray(b'\x8d\n')`
+/// Parses `bytearray(b'\x8d\n')`.
 std::optional<Run> python_run(std::string_view line) {
   for (const std::string_view opening : {"b'", "b\""}) {
     const auto begin = line.find(opening);
@@ -136,7 +136,7 @@ bool is_number(std::string_view word) {
   return std::all_of(word.begin(), word.end(), is_digit);
 }
 
-/// What stands in front of the bytes.
+/// The text before the bytes.
 struct Front {
   std::string when;
   std::optional<Direction> direction;
@@ -166,6 +166,39 @@ Front read_front(std::string_view text) {
   return front;
 }
 
+/// Adds up hours, minutes and seconds separated by `:`.
+std::optional<double> seconds_of(std::string_view clock) {
+  constexpr double sixty = 60;
+  double seconds = 0;
+  std::string part;
+  const auto add = [&] {
+    const auto value = parse_real(part, std::chars_format::fixed);
+    seconds = seconds * sixty + value.value_or(0);
+    part.clear();
+    return value && *value >= 0;
+  };
+  for (const char c : clock)
+    if (c == ':') {
+      if (!add())
+        return std::nullopt;
+    } else {
+      part += c == ',' ? '.' : c;
+    }
+  return add() ? std::optional(seconds) : std::nullopt;
+}
+
+/// Parses a time of day, or a time since any moment: `0.123`, `12:00:01,5`. Skips a date before it.
+std::optional<Duration> moment(std::string_view when) {
+  const auto date = when.find_last_of(" T");
+  auto clock = date == std::string_view::npos ? when : when.substr(date + 1);
+  clock = clock.substr(0, clock.find_first_of("Z+s"));
+  const auto seconds = seconds_of(clock);
+  constexpr double too_long = 4e9; // beyond today's Unix time it is a number, not a time
+  if (!seconds || *seconds > too_long)
+    return std::nullopt;
+  return std::chrono::duration_cast<Duration>(std::chrono::duration<double>(*seconds));
+}
+
 std::optional<LogLine> read_line(std::string_view line) {
   auto run = python_run(line);
   if (!run)
@@ -177,7 +210,9 @@ std::optional<LogLine> read_line(std::string_view line) {
                             line.find_first_not_of(parting, run->end) == std::string_view::npos;
   if (run->bytes.size() < surely_bytes && !stands_alone)
     return std::nullopt;
-  return LogLine{std::move(front.when), front.direction, std::move(run->bytes)};
+  const auto at = moment(front.when);
+  const bool greets = spec::is_greeting(as_text(run->bytes));
+  return LogLine{std::move(front.when), front.direction, std::move(run->bytes), at, 0, greets};
 }
 
 } // namespace
@@ -196,6 +231,7 @@ LogText read_log(std::string_view text) {
       continue;
     ++log.read_lines;
     if (auto read = read_line(line)) {
+      read->number = number;
       log.lines.push_back(*std::move(read));
     } else if (log.strangers++ == 0) {
       log.first_stranger = number;

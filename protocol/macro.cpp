@@ -10,11 +10,11 @@ using spec::MacroCommand;
 using spec::MacroFlag;
 using spec::MacroOperandKind;
 
-std::uint32_t size_of(ByteView bytes) {
+std::uint32_t operands_size(ByteView bytes) {
   return static_cast<std::uint32_t>(bytes.size());
 }
 
-std::int32_t read_value(ByteView bytes, std::uint32_t offset, const spec::MacroOperand& operand) {
+std::int32_t read_operand(ByteView bytes, std::uint32_t offset, const spec::MacroOperand& operand) {
   if (operand.width == 1)
     return bytes[offset];
   const auto raw = read_u16(bytes, offset);
@@ -23,11 +23,11 @@ std::int32_t read_value(ByteView bytes, std::uint32_t offset, const spec::MacroO
 
 MacroError cut_operand(ByteView bytes, std::uint32_t offset, const spec::MacroCommandInfo& info) {
   MacroError error{MacroError::Kind::CutOperand, offset, info.code, &info, nullptr, info.length,
-                   size_of(bytes) - offset};
+                   operands_size(bytes) - offset};
   std::uint32_t at = offset + 1;
   for (const auto& operand : info) {
     error.operand = &operand;
-    if (at + operand.width > size_of(bytes))
+    if (at + operand.width > operands_size(bytes))
       break;
     at += operand.width;
   }
@@ -83,7 +83,7 @@ Bytes encode(const MacroImage& image) {
 
 tl::expected<MacroHeader, MacroError> read_macro_header(ByteView bytes) {
   MacroError error;
-  error.offset = size_of(bytes);
+  error.offset = operands_size(bytes);
   if (bytes.size() < 2)
     return tl::unexpected(error);
   MacroHeader header{bytes[0], bytes[1], std::nullopt, 2};
@@ -110,7 +110,7 @@ tl::expected<MacroStep, MacroError> read_macro_command(ByteView bytes, std::uint
   if (info == nullptr)
     return tl::unexpected(
         MacroError{MacroError::Kind::UnknownCode, offset, code, nullptr, nullptr, 0, 0});
-  const auto present = size_of(bytes) - offset;
+  const auto present = operands_size(bytes) - offset;
   if (info->length > present)
     return tl::unexpected(cut_operand(bytes, offset, *info));
   MacroStep step;
@@ -120,7 +120,7 @@ tl::expected<MacroStep, MacroError> read_macro_command(ByteView bytes, std::uint
   auto at = offset + 1;
   for (std::uint32_t i = 0; i < info->operand_count; ++i) {
     const auto& operand = info->operand[i];
-    step.value[i] = read_value(bytes, at, operand);
+    step.value[i] = read_operand(bytes, at, operand);
     at += operand.width;
   }
   if (!info->variable_length)
@@ -139,8 +139,8 @@ MacroListing decode_macro_body(ByteView body) {
   for (std::uint32_t offset = 0; offset < body.size();) {
     if (listing.has_end) {
       listing.error =
-          MacroError{MacroError::Kind::AfterEnd, offset, body[offset], nullptr, nullptr, 0,
-                     size_of(body) - offset};
+          MacroError{MacroError::Kind::AfterEnd,  offset, body[offset], nullptr, nullptr, 0,
+                     operands_size(body) - offset};
       break;
     }
     const auto step = read_macro_command(body, offset);

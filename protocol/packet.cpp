@@ -18,7 +18,7 @@ Bytes encoded(const Packet& packet) {
   return out;
 }
 
-/// Appends the checksum over everything after the two start bytes at `start`.
+/// Appends the checksum of everything after the two start bytes at `start`.
 void close_packet(Bytes& out, std::size_t start) {
   out.push_back(checksum(ByteView(out).subspan(start + spec::sop_size)));
 }
@@ -31,7 +31,7 @@ Command make_command(spec::ApiCommand command, Bytes data, std::uint8_t seq) {
 }
 
 std::uint8_t checksum(ByteView bytes) {
-  // Eight bytes at a time: the even and the odd ones are added into four 16-bit lanes each, which
+  // Adds eight bytes at a time, even and odd ones separately into four 16-bit lanes each, which
   // cannot overflow within one block.
   constexpr std::uint64_t lanes = 0x00FF00FF00FF00FF;        // the low byte of each
   constexpr std::size_t block = 128 * sizeof(std::uint64_t); // 2 x 128 x 255 fits into 16 bits

@@ -11,7 +11,7 @@ constexpr bool is_special(std::uint8_t byte) {
   return byte == spec::v2_start || byte == spec::v2_end || byte == spec::v2_escape;
 }
 
-/// Header, data and checksum as they are before escaping; nothing where an escape is wrong.
+/// Removes escapes from header, data and checksum; nullopt for an invalid escape.
 std::optional<Bytes> unescape(ByteView bytes) {
   Bytes out;
   out.reserve(bytes.size());
@@ -30,7 +30,7 @@ std::optional<Bytes> unescape(ByteView bytes) {
   return out;
 }
 
-/// Reads the header fields; false where the packet is too short for them.
+/// Parses the header. Returns false if the packet is too short.
 bool read_packet(ByteView bytes, PacketV2& packet) {
   std::size_t at = 0;
   const auto take = [&](std::uint8_t& field) {
@@ -135,6 +135,16 @@ std::optional<ItemV2> DecoderV2::next() {
   item.kind =
       item.checksum == item.right_checksum ? ItemV2::Kind::Packet : ItemV2::Kind::BadChecksum;
   return item;
+}
+
+std::size_t understood_as_v2(ByteView bytes) {
+  DecoderV2 decoder;
+  decoder.feed(bytes);
+  std::size_t count = 0;
+  while (const auto item = decoder.next())
+    if (item->kind == ItemV2::Kind::Packet)
+      count += item->raw.size();
+  return count;
 }
 
 } // namespace orb::protocol

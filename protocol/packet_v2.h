@@ -7,48 +7,51 @@
 
 namespace orb::protocol {
 
-/// A packet of the newer robots: a command, or with the Response flag an answer. Source: PKT.
+/// A packet of the newer robots: a command, or an answer if it has the Response flag. Source: PKT.
 struct PacketV2 {
   std::uint8_t flags = 0;  ///< spec::V2Flag bits
-  Bytes extended_flags{};  ///< while the byte before has V2Flag::Extended
-  std::uint8_t target = 0; ///< where flags say so: port and node in a nibble each
-  std::uint8_t source = 0; ///< where flags say so
+  Bytes extended_flags{};  ///< present while the byte before has V2Flag::Extended
+  std::uint8_t target = 0; ///< if the flags say so: port and node, a nibble each
+  std::uint8_t source = 0; ///< if the flags say so
   std::uint8_t did = 0;
   std::uint8_t cid = 0;
   std::uint8_t seq = 0;
-  std::uint8_t error = 0; ///< of a response
+  std::uint8_t error = 0; ///< for responses
   Bytes data{};
 
   friend bool operator==(const PacketV2&, const PacketV2&) = default;
 };
 
-/// The bytes on the wire, escaped.
+/// Returns the bytes on the wire, escaped.
 Bytes encode(const PacketV2& packet);
 
-/// One thing found in a stream of v2 bytes.
+/// An item found in a stream of v2 bytes.
 struct ItemV2 {
   enum class Kind : std::uint8_t {
     Packet,
-    Noise, ///< bytes that begin no packet, or a packet that makes no sense
+    Noise, ///< bytes outside any packet, or an invalid packet
     BadChecksum,
-    Incomplete ///< a packet whose end never came (see DecoderV2::expire)
+    Incomplete ///< a packet without its end (see DecoderV2::expire)
   };
   Kind kind = Kind::Noise;
-  PacketV2 packet; ///< of a Packet
+  PacketV2 packet; ///< for Packet
   std::uint8_t checksum = 0;
-  std::uint8_t right_checksum = 0; ///< of a BadChecksum
+  std::uint8_t right_checksum = 0; ///< for BadChecksum
   Bytes raw;
 };
 
-/// Finds v2 packets in a stream that arrives in pieces of any size; keeps at most one incomplete
+/// Returns how many bytes belong to whole v2 packets.
+std::size_t understood_as_v2(ByteView bytes);
+
+/// Finds v2 packets in a stream that arrives in pieces of any size. Keeps at most one incomplete
 /// packet and never fails.
 class DecoderV2 {
 public:
   void feed(ByteView bytes);
   std::optional<ItemV2> next();
-  /// Whether it holds bytes that are no whole packet yet.
+  /// Returns true if it holds an incomplete packet.
   bool pending() const { return at_ < kept_.size(); }
-  /// Gives up waiting for the end of an incomplete packet.
+  /// Stops waiting for the end of an incomplete packet.
   void expire() { expired_ = true; }
 
 private:

@@ -50,7 +50,7 @@ std::string placeholder(const Field& field) {
   return out;
 }
 
-/// A named value of the field's subject: `flash` for an area, `on` and `off` for a flag.
+/// Returns a named value of the field's type: `flash` for an area, `on` and `off` for a flag.
 std::optional<std::int64_t> named_value(const Field& field, std::string_view word) {
   if (field.unit == "bool") {
     if (word == "on" || word == "true")
@@ -209,7 +209,7 @@ tl::expected<Operands, PayloadFault> Operands::read(spec::ApiCommand command, By
 
 namespace {
 
-/// The bytes of the last operand, from all words that are left.
+/// Builds the bytes of the last operand from all remaining words.
 tl::expected<Bytes, EncodeError> encode_rest(const Field& field,
                                              std::span<const std::string> words) {
   const auto is_text = field.unit == "text";

@@ -42,7 +42,7 @@ std::string takes(const spec::V2Field& field) {
                      field.most);
 }
 
-bool append(Bytes& out, const spec::V2Field& field, const std::string& word) {
+bool append_field(Bytes& out, const spec::V2Field& field, const std::string& word) {
   const auto most = static_cast<std::size_t>(std::max<std::int64_t>(field.most, 0));
   if (field.type == V2Type::Text) {
     const auto bytes = as_bytes(word);
@@ -75,6 +75,32 @@ bool append(Bytes& out, const spec::V2Field& field, const std::string& word) {
   case 1: out.push_back(static_cast<std::uint8_t>(*value)); break;
   case 2: append_u16(out, static_cast<std::uint32_t>(*value)); break;
   default: append_u32(out, static_cast<std::uint32_t>(*value)); break;
+  }
+  return true;
+}
+
+bool values_fit(spec::V2Command command, ByteView data) {
+  std::size_t at = 0;
+  for (const auto& field : spec::v2_operands) {
+    if (field.command != command)
+      continue;
+    std::int64_t value = 0;
+    if (field.type == V2Type::U8)
+      value = data[at++];
+    else if (field.type == V2Type::U16) {
+      value = read_u16(data, at);
+      at += 2;
+    } else if (field.type == V2Type::F32) {
+      const double number = read_f32(data, at);
+      at += sizeof(float);
+      if (!(number >= static_cast<double>(field.least) &&
+            number <= static_cast<double>(field.most)))
+        return false;
+      continue;
+    } else
+      return true; // this field takes all remaining bytes
+    if (value < field.least || value > field.most)
+      return false;
   }
   return true;
 }
@@ -124,7 +150,7 @@ tl::expected<Bytes, std::string> encode_operands(spec::V2Command command,
       return tl::unexpected(takes(field));
     static const std::string zero = "0";
     static const std::string nothing;
-    if (!append(out, field, given ? words[at] : field.type == V2Type::Text ? nothing : zero))
+    if (!append_field(out, field, given ? words[at] : field.type == V2Type::Text ? nothing : zero))
       return tl::unexpected(given ? fmt::format("unexpected `{}`; {}", words[at], takes(field))
                                   : takes(field));
     at += given ? 1 : 0;
@@ -171,6 +197,44 @@ bool fits(spec::V2Command command, ByteView data) {
       more = static_cast<std::size_t>(field.most - field.least) + 1; // the NUL of a text
   }
   return data.size() >= least && data.size() <= least + more;
+}
+
+spec::V2Error refusal(spec::V2Command command, ByteView data) {
+  using spec::V2Error;
+  if (!fits(command, data))
+    return V2Error::BadLength;
+  return values_fit(command, data) ? V2Error::Success : V2Error::BadParameter;
+}
+
+spec::V2Error refusal(const PacketV2& request, const spec::RobotInfo& robot) {
+  using spec::V2Error;
+  const bool targeted = spec::has(request.flags, spec::V2Flag::HasTarget);
+  const auto first = spec::v2_target(spec::V2Processor::Primary);
+  const auto second = spec::v2_target(spec::V2Processor::Secondary);
+  // Most robots with one processor also accept the address of the second: clients of real ones use
+  // it.
+  if (targeted && request.target != first &&
+      (request.target != second || robot.targets == spec::Targets::First))
+    return V2Error::BadTarget;
+  if (std::none_of(spec::v2_commands.begin(), spec::v2_commands.end(),
+                   [&](const auto& row) { return row.did() == request.did; }))
+    return V2Error::BadDevice;
+  const auto* row = spec::find_v2_command(request.did, request.cid);
+  if (row == nullptr || !spec::knows(robot, *row))
+    return V2Error::BadCommand;
+  const bool is_rvr = robot.sensors == spec::RobotSensors::Services;
+  // Handled by its first processor.
+  const bool lamps_of_rvr = is_rvr && row->command == spec::V2Command::MatrixColor;
+  if (targeted && robot.targets == spec::Targets::Both &&
+      row->processor != spec::V2Processor::Any &&
+      request.target != spec::v2_target(row->processor) && !lamps_of_rvr)
+    return V2Error::BadCommand;
+  return refusal(row->command, request.data);
+}
+
+bool serves_asleep(std::uint8_t did) {
+  const auto power = spec::info(spec::V2Command::Wake).did();
+  return did <= power;
 }
 
 } // namespace orb::protocol

@@ -12,7 +12,7 @@ tl::unexpected<std::string> wrong_word(std::string_view item, std::string_view w
 }
 
 std::optional<double> read_rate(std::string_view text) {
-  constexpr double percents = 100; // are the whole
+  constexpr double percents = 100; // in a whole
   if (!text.ends_with("%"))
     return std::nullopt;
   text.remove_suffix(1);

@@ -9,25 +9,25 @@
 #include <tl/expected.hpp>
 #include <utility>
 
-/// How plans of faults are written: words with commas between them.
+/// The notation of fault plans: words separated by commas.
 namespace orb::protocol {
 
-/// Why an item is no word of a plan.
+/// Returns the error for an invalid item.
 tl::unexpected<std::string> wrong_word(std::string_view item, std::string_view what);
 
-/// The share that `1%` or `0.1%` is.
+/// Parses a rate such as `1%` or `0.1%`.
 std::optional<double> read_rate(std::string_view text);
 
-/// `300ms`, `0.2s`, or a bare number of milliseconds; at most an hour.
+/// Parses `300ms`, `0.2s`, or a bare number of milliseconds; at most an hour.
 std::optional<Duration> read_delay(std::string_view text);
 
-/// The name of an item, `=` or `@` included, and what follows it.
+/// Splits an item into its name, including `=` or `@`, and the rest.
 std::pair<std::string_view, std::string_view> split_item(std::string_view item);
 
-/// The two ends of `1..20`, or the same value twice where it is one alone.
+/// Splits `1..20`; a single value is returned twice.
 std::pair<std::string_view, std::string_view> split_range(std::string_view text);
 
-/// Lets `read` take in each word of `text`, up to the first that is wrong.
+/// Calls `read` for each word of `text`, up to the first error.
 template <class Read>
 tl::expected<void, std::string> read_words(std::string_view text, const Read& read) {
   while (true) {

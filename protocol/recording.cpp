@@ -9,7 +9,7 @@
 namespace orb::protocol {
 namespace {
 
-/// A client that has written nothing for so long only listens: no wait of a client is as long.
+/// A client that has not written for this long only listens: no client waits as long.
 constexpr Duration only_listens = 1h;
 
 std::string wrong_line(std::size_t line) {
@@ -27,7 +27,7 @@ tl::expected<std::vector<RecordedPiece>, std::string> parse_recording(std::strin
     content.remove_prefix(std::min(content.find_first_not_of(" \t\r"), content.size()));
     if (content.empty() || content.front() == '#')
       continue;
-    if (is_digit(content.front())) // when it was
+    if (is_digit(content.front())) // skip the time
       content = trim(content.substr(std::min(content.find_first_of(" \t"), content.size())));
     if (content.empty())
       return tl::unexpected(wrong_line(line));

@@ -17,22 +17,23 @@ struct RecordedPiece {
   Bytes bytes;
 };
 
-/// Reads a recording: `> FF FF …` was sent, `< FF FF …` was received, `#` begins a comment. A
-/// time may stand in front, as in `1.234 > FF FF …`. Blanks in front and at the end do not count.
-/// The error is a sentence that names the line.
+/// Parses a recording: `> FF FF …` was sent, `< FF FF …` was received, `#` begins a comment. A time
+/// may precede, as in `1.234 > FF FF …`. Leading and trailing blanks are ignored. The error is a
+/// sentence that names the line.
 tl::expected<std::vector<RecordedPiece>, std::string> parse_recording(std::string_view text);
 
-/// A line of a recording, with its line end.
+/// Returns a line of a recording, with its line end.
 std::string recording_line(Direction direction, ByteView bytes);
 
-/// Hears every write and read of a link.
+/// Observes all writes and reads of a link.
 class WireListener {
 public:
   virtual ~WireListener() = default;
   virtual void on_bytes(Direction direction, ByteView bytes, Instant now) = 0;
 };
 
-/// A Transport around a Transport that tells a listener what passes; the listener must outlive it.
+/// A Transport that passes another one through and reports its traffic to a listener, which must
+/// outlive it.
 class RecordingTransport final : public Transport {
 public:
   RecordingTransport(std::unique_ptr<Transport> inner, WireListener& listener)
@@ -47,9 +48,9 @@ private:
   WireListener& listener_;
 };
 
-/// Plays the ball's side of a recording. What is written must be what was sent then, byte for byte;
-/// the first other byte is an error. A client that only listens hears the rest of what the ball
-/// said. Time is virtual.
+/// Plays the ball's side of a recording. Writes must equal those recorded, byte for byte; the first
+/// difference is an error. A client that only listens receives the rest of the ball's output. Time
+/// is virtual.
 class ReplayTransport final : public Transport {
 public:
   explicit ReplayTransport(std::vector<RecordedPiece> pieces) : pieces_(std::move(pieces)) {}
@@ -60,16 +61,16 @@ public:
 
 private:
   std::vector<RecordedPiece> pieces_;
-  std::size_t next_ = 0;    ///< the piece that comes next
-  std::size_t written_ = 0; ///< bytes of it that have been written
+  std::size_t next_ = 0;    ///< index of the next piece
+  std::size_t written_ = 0; ///< bytes of it already written
   std::uint64_t total_ = 0; ///< bytes written, for messages
-  Bytes unread_;            ///< what had come before the last write
-  Duration waited_{};       ///< for a write, since the last thing that passed
+  Bytes unread_;            ///< what arrived before the last write
+  Duration waited_{};       ///< time waited for a write since the last traffic
   Instant now_{};
 };
 
-/// The sequence number of the first packet that was sent in the recording: a session that is to
-/// repeat it must begin with the same.
+/// Returns the sequence number of the first packet sent in the recording: a session that repeats it
+/// must begin with the same one.
 std::optional<std::uint8_t> first_recorded_seq(const std::vector<RecordedPiece>& pieces);
 
 } // namespace orb::protocol

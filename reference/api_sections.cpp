@@ -1,4 +1,4 @@
-// What the tables of the API know.
+// The tables of the API.
 
 #include "reference/sections.h"
 #include "spec/api.h"
@@ -46,7 +46,7 @@ std::string_view type_name(spec::FieldType type) {
   return "";
 }
 
-/// A field in a few words: `u16 heading 0 to 359 deg`, ranges only where the table has one.
+/// Describes a field briefly: `u16 heading 0 to 359 deg`, with the range if the table has one.
 std::string describe(const spec::Field& field) {
   const bool exact =
       field.type == spec::FieldType::Data && field.least == field.most && field.most > 0;
@@ -161,7 +161,7 @@ Section firmwares_section() {
                                                  : "no orbBasic");
     entry.facts.emplace_back("API", fmt::format("{}.{:02}", row.api.major, row.api.minor));
     entry.facts.emplace_back("Level 2 diagnostics",
-                             row.level_2 == spec::Level2::Told ? "supported" : "refused");
+                             row.level_2 == spec::Level2::Supported ? "supported" : "refused");
     section.entries.push_back(std::move(entry));
   }
   return section;

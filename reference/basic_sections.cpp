@@ -1,12 +1,12 @@
-// What the orbBasic tables know.
+// The tables of orbBasic.
 
 #include "base/text/text.h"
 #include "reference/sections.h"
 #include "spec/basic.h"
 #include "spec/colours.h"
 #include "spec/limits.h"
-#include "structured/text/blocks.h"
-#include "structured/text/words.h"
+#include "structured/text/link_blocks.h"
+#include "structured/text/structured_words.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -23,7 +23,7 @@ std::string since(spec::BasicVersion version) {
   return fmt::format("orbBasic {}", spec::info(version).text);
 }
 
-std::string_view describe(spec::InThen in_then) {
+std::string_view describe_in_then(spec::InThen in_then) {
   switch (in_then) {
   case spec::InThen::Listed: return "yes";
   case spec::InThen::Unlisted: return "works, but is not documented";
@@ -32,7 +32,7 @@ std::string_view describe(spec::InThen in_then) {
   return "";
 }
 
-std::string_view describe(spec::Access access) {
+std::string_view describe_in_then(spec::Access access) {
   switch (access) {
   case spec::Access::Read: return "read";
   case spec::Access::ReadWrite: return "read and write";
@@ -41,7 +41,7 @@ std::string_view describe(spec::Access access) {
   return "";
 }
 
-/// The statement that ends what this one begins, or begins what it ends; null where there is none.
+/// The statement that ends what this one begins, or the reverse; null if there is none.
 const spec::StatementInfo* partner(const spec::StatementInfo& row) {
   if (row.form != spec::Form::Loop && row.form != spec::Form::LoopEnd)
     return nullptr;
@@ -50,7 +50,7 @@ const spec::StatementInfo* partner(const spec::StatementInfo& row) {
                       [&](const auto& other) { return other.form == form; });
 }
 
-/// A statement's line, or the lines of both partners in the order in which they run.
+/// A statement's example, or the examples of both partners in the order in which they run.
 std::string example(const spec::StatementInfo& row) {
   const auto* other = partner(row);
   if (other == nullptr)
@@ -60,7 +60,7 @@ std::string example(const spec::StatementInfo& row) {
   return fmt::format("{}\n{}", first.example, last.example);
 }
 
-/// Whether a usage line names `word` as a word of its own.
+/// True if a usage line contains `word` as a whole word.
 bool names(std::string_view usage, std::string_view word) {
   for (auto at = usage.find(word); at != std::string_view::npos; at = usage.find(word, at + 1)) {
     const auto end = at + word.size();
@@ -97,7 +97,7 @@ Section statements_section() {
           entry.facts.back().second += ", " + entry.swatches.back().name;
       }
     entry.facts.emplace_back("since", since(row.since));
-    entry.facts.emplace_back("after then", describe(row.in_then));
+    entry.facts.emplace_back("after then", describe_in_then(row.in_then));
     entry.facts.emplace_back("source", row.source);
     entry.code.emplace_back("example", example(row));
     section.entries.push_back(std::move(entry));
@@ -181,7 +181,7 @@ Section variables_section() {
     if (!row.old_word.empty())
       entry.aliases.emplace_back(row.old_word);
     entry.summary = row.summary;
-    entry.facts.emplace_back("access", describe(row.access));
+    entry.facts.emplace_back("access", describe_in_then(row.access));
     entry.facts.emplace_back("range", range(row.least, row.greatest, row.unit));
     entry.facts.emplace_back("since", since(row.since));
     if (!row.old_word.empty())

@@ -2,16 +2,16 @@
 #include "spec/basic.h"
 #include "spec/colours.h"
 #include "spec/limits.h"
-#include "structured/text/words.h"
+#include "structured/text/structured_words.h"
 
 #include <fmt/format.h>
 
-// docs/cheatsheet.md: what somebody wants beside the keyboard, on one printed page.
+// docs/reference/cheatsheet.md: a printable page to keep next to the keyboard.
 
 namespace orb::reference {
 namespace {
 
-/// What structured programs have besides the robot's own statements.
+/// The words of structured programs beyond the robot's own statements.
 std::string structured_words() {
   std::string out = "| write | it |\n|---|---|\n";
   for (const auto& row : structured::keywords)
@@ -33,7 +33,7 @@ std::string statements() {
   return out;
 }
 
-/// Names with their meaning in running text: `**word** meaning · …`.
+/// A list of names and meanings as running text: `**word** meaning · …`.
 class List {
 public:
   void add(std::string_view name, std::string_view meaning) {

@@ -1,4 +1,4 @@
-// What `orb explain` knows of the command line.
+// What `orb explain` knows about the command line.
 
 #include "reference/knowledge.h"
 
@@ -8,7 +8,7 @@
 namespace orb::reference {
 namespace {
 
-/// The names of an option with their dashes, the long ones first.
+/// The names of an option with dashes, long ones first.
 std::vector<std::string> names_of(const Option& option) {
   std::vector<std::string> names;
   for (const auto& name : option.long_names)

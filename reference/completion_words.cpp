@@ -9,7 +9,7 @@
 namespace orb::reference {
 namespace {
 
-/// The options that fit after `command`: its own, and those of orb that stand anywhere.
+/// The options that may follow `command`: its own and the global ones.
 std::vector<const Option*> options_of(const CommandLine& line, const Command* command) {
   std::vector<const Option*> options;
   if (command != nullptr)
@@ -40,17 +40,17 @@ const Command* find_command(const CommandLine& line, const std::string& name) {
   return nullptr;
 }
 
-/// Where the cursor is: after which command, after which option, at which argument.
-struct Place {
+/// The position of the cursor: after which command, after which option, at which argument.
+struct CursorContext {
   const Command* command = nullptr;
-  const Option* wants_value = nullptr; ///< the word before is this option
-  std::size_t arguments = 0;           ///< how many stand before
-  bool only_arguments = false;         ///< a `--` stands before
-  bool lost = false;                   ///< there is no such command: nothing fits
+  const Option* wants_value = nullptr; ///< the previous word is this option
+  std::size_t arguments = 0;           ///< arguments before it
+  bool only_arguments = false;         ///< a `--` precedes it
+  bool lost = false;                   ///< unknown command: nothing fits
 };
 
-Place place_after(const CommandLine& line, std::span<const std::string> before) {
-  Place place;
+CursorContext place_after(const CommandLine& line, std::span<const std::string> before) {
+  CursorContext place;
   for (const auto& word : before) {
     if (place.wants_value != nullptr) {
       place.wants_value = nullptr;
@@ -77,7 +77,7 @@ Place place_after(const CommandLine& line, std::span<const std::string> before) 
   return place;
 }
 
-/// The argument that the next plain word is; nothing when the command takes no more.
+/// The argument for the next plain word; nothing if the command takes no more.
 const Option* argument_at(const Command& command, std::size_t index) {
   for (const auto& option : command.options)
     if (!option.argument.empty()) {
@@ -88,13 +88,13 @@ const Option* argument_at(const Command& command, std::size_t index) {
   return nullptr;
 }
 
-/// Gathers the candidates that begin with what is typed.
+/// Collects the candidates that begin with the typed text.
 class Gatherer {
 public:
   Gatherer(std::span<const Candidate> ports, std::string_view typed, std::string_view before)
       : ports_(ports), typed_(typed), before_(before) {}
 
-  /// `summary` may be long; its first line is shown.
+  /// Shows only the first line of `summary`.
   void add(std::string_view word, std::string_view summary) {
     if (word.starts_with(typed_))
       found.candidates.push_back(
@@ -139,10 +139,10 @@ private:
     add("tcp://", "tcp://HOST:PORT, a ball that is served there");
     add("pty://", "pty:///PATH, a ball that is served there");
     add("replay://", "replay://FILE, a recording");
-    found.files = true; // a bare path is a port too
+    found.files = true; // a port may be a bare path
   }
 
-  /// The entries of every section whose id holds `what`: `rules` takes those of both linters.
+  /// Adds the entries of every section whose id contains `what`: `rules` matches both linters.
   void add_entries(std::string_view what) {
     for (const auto& section : knowledge())
       if (section.id.find(what) != std::string_view::npos &&

@@ -14,20 +14,19 @@ struct Candidate {
   std::string summary; ///< may be empty
 };
 
-/// What could stand at the end of a command line.
+/// Completions at the end of a command line.
 struct Completions {
-  std::vector<Candidate> candidates; ///< all begin with the word that is being typed
-  bool files = false;                ///< names of files fit too
+  std::vector<Candidate> candidates; ///< all begin with the word being typed
+  bool files = false;                ///< file names fit as well
 };
 
-/// What fits in the place of the last of `words`. `words` is what was typed without the program's
-/// name; its last word is the one being typed and may be empty. `ports` are the balls that this
-/// computer knows by name or by device.
+/// Completes the last of `words`: the typed words without the program's name; the last one may be
+/// empty. `ports` are the balls known by name or by device.
 Completions complete(const CommandLine& line, std::span<const Candidate> ports,
                      std::span<const std::string> words);
 
-/// The answer to the scripts: a candidate a line, then a tab and its summary where it has one; and
-/// a line `:files` where names of files fit.
+/// The answer for the completion scripts: one candidate per line, followed by a tab and its summary
+/// if it has one; and a line `:files` if file names fit.
 std::string print(const Completions& completions);
 
 } // namespace orb::reference

@@ -33,7 +33,8 @@ std::vector<Section> knowledge() {
           expectations_section(),     test_rules_section(),     api_commands_section(),
           api_messages_section(),     responses_section(),      streams_section(),
           firmwares_section(),        ball_section(),           robots_section(),
-          robot_commands_section()};
+          robot_commands_section(),   client_rules_section(),   edu_calls_section(),
+          edu_events_section()};
 }
 
 std::string print_entry(const Section& section, const Entry& entry, Style style) {

@@ -12,7 +12,7 @@
 
 namespace orb::reference {
 
-/// A colour to be shown beside its name.
+/// A colour to show next to its name.
 struct Swatch {
   std::string name; ///< `1 red`
   std::uint8_t red = 0;
@@ -20,45 +20,46 @@ struct Swatch {
   std::uint8_t blue = 0;
 };
 
-/// One thing that the tables know, ready to be printed in any form.
+/// An entry of the tables, ready for output in any format.
 struct Entry {
-  std::string name; ///< what a user types: `goroll`, `08h`, `unknown-statement`
-  std::vector<std::string> aliases = {}; ///< other words that find it: `8`, `Divide by zero`
+  std::string name;                      ///< what users type: `goroll`, `08h`, `unknown-statement`
+  std::vector<std::string> aliases = {}; ///< other words that lead to it: `8`, `Divide by zero`
   std::string summary = {};              ///< one sentence
   std::vector<std::pair<std::string, std::string>> facts = {}; ///< usage, ranges, since, source…
   std::string explanation = {};                                ///< paragraphs; may be empty
-  std::vector<std::pair<std::string, std::string>> code = {};  ///< captioned sources: `bad`, `good`
-  std::vector<Swatch> swatches = {};                           ///< shown where there is colour
+  /// sources with captions: `bad`, `good`
+  std::vector<std::pair<std::string, std::string>> code = {};
+  std::vector<Swatch> swatches = {}; ///< shown where colours are available
 };
 
-/// A table of the robot, or of the tools, as a chapter of the reference.
+/// A table of the robot or of the tools, as a chapter of the reference.
 struct Section {
-  std::string_view id;    ///< `statements`: a file of docs/reference/ and a word of `orb spec`
+  /// `statements`: also a file of docs/reference/ and a word of `orb spec`
+  std::string_view id;
   std::string_view title; ///< `Statements`
-  std::string_view kind;  ///< what one entry is: `statement`
+  std::string_view kind;  ///< the noun for an entry: `statement`
   std::vector<Entry> entries;
-  std::string overview = {}; ///< Markdown in front of the entries of the page; may be empty
+  std::string overview = {}; ///< Markdown before the entries of the page; may be empty
 };
 
-/// Everything the tables know, in the order in which a reader wants it.
+/// All sections, in reading order.
 std::vector<Section> knowledge();
 
-/// The commands of orb and their options, each option once for all commands that have it.
+/// The commands of orb and their options; an option shared by several commands appears once.
 std::vector<Section> commands_knowledge(const CommandLine& line);
 
-/// One entry as `orb explain` prints it.
+/// Prints an entry as `orb explain` does.
 std::string print_entry(const Section& section, const Entry& entry, Style style);
 
-/// Every entry that `is_meant` of its name or of an alias, one after the other: `roll` is a
-/// variable and a macro command. Empty where there is none.
+/// Prints every entry whose name or alias satisfies `is_meant`: `roll`, for instance, is a variable
+/// and a macro command. Empty if there is none.
 std::string print_entries(const std::vector<Section>& sections, Style style,
                           const std::function<bool(const std::string&)>& is_meant);
 
-/// One section as a page of docs/reference/, with links to the pages of the others
-/// (reference/markdown.cpp).
+/// A section as a page of docs/reference/, with links to the other pages (reference/markdown.cpp).
 std::string print_markdown(const std::vector<Section>& sections, const Section& section);
 
-/// The language on one page that can be printed: docs/cheatsheet.md (reference/cheatsheet.cpp).
+/// The language on one printable page: docs/reference/cheatsheet.md (reference/cheatsheet.cpp).
 std::string print_cheatsheet();
 
 /// All sections as one JSON document.

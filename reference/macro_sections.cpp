@@ -1,4 +1,4 @@
-// What the macro tables know.
+// The macro tables.
 
 #include "base/text/text.h"
 #include "reference/sections.h"
@@ -9,7 +9,7 @@
 namespace orb::reference {
 namespace {
 
-std::string describe(const spec::MacroOperand& operand) {
+std::string describe_operand(const spec::MacroOperand& operand) {
   if (operand.kind == spec::MacroOperandKind::Text)
     return fmt::format("text, preceded by its length in {} bytes", operand.width);
   const auto unit = spec::to_string(operand.unit);
@@ -43,7 +43,7 @@ Section macro_commands_section() {
     entry.summary = row.summary;
     entry.facts.emplace_back("bytes", layout(row));
     for (const auto& operand : row)
-      entry.facts.emplace_back(operand.name, describe(operand));
+      entry.facts.emplace_back(operand.name, describe_operand(operand));
     entry.facts.emplace_back("executive", fmt::format("{} and later", row.executive));
     entry.facts.emplace_back("documents", row.title);
     entry.facts.emplace_back("source", row.source);

@@ -13,7 +13,7 @@
 namespace orb::reference {
 namespace {
 
-constexpr std::size_t line_width = 76; // mandoc wants source lines of at most 80 bytes
+constexpr std::size_t line_width = 76; // bytes; mandoc wants source lines of at most 80
 constexpr std::string_view date = "November 21, 2026";
 
 std::string_view take_code_point(std::string_view& text) {
@@ -23,7 +23,7 @@ std::string_view take_code_point(std::string_view& text) {
   return front;
 }
 
-/// The number of a code point that was found valid.
+/// The number of a code point; the text must be valid UTF-8.
 std::uint32_t scalar(std::string_view utf8) {
   const auto byte = [&](std::size_t i) {
     return static_cast<std::uint32_t>(static_cast<std::uint8_t>(utf8[i]));
@@ -38,7 +38,7 @@ std::uint32_t scalar(std::string_view utf8) {
   }
 }
 
-/// `text` with everything that roff would take for its own made harmless.
+/// Escapes what roff would interpret.
 std::string escape(std::string_view text) {
   std::string out;
   while (!text.empty()) {
@@ -65,7 +65,7 @@ std::string escape(std::string_view text) {
   return out;
 }
 
-/// Running text as source lines: filled, a new line after each sentence, `code` in bold.
+/// Formats running text as source lines: filled, a new line after each sentence, `code` in bold.
 std::string prose(std::string_view text) {
   std::string out;
   std::string line;
@@ -104,7 +104,7 @@ std::string prose(std::string_view text) {
   return out;
 }
 
-/// A word as the argument of a macro: never taken for a macro itself.
+/// Protects a word in the arguments of a macro: it cannot be taken for another macro.
 std::string word(std::string_view text) {
   std::string out;
   bool at_start = true;
@@ -136,7 +136,7 @@ std::string upper(std::string_view text) {
   return out;
 }
 
-/// A summary as `.Nd` wants it: no full stop, one line.
+/// A summary for `.Nd`: one line without a full stop.
 std::string summary_line(std::string_view text) {
   std::string out;
   for (const char c : text.substr(0, text.find('\n')))
@@ -154,7 +154,7 @@ std::string head(std::string_view name, int section, std::string_view summary) {
 }
 
 /// `Fl o Ar FILE , Fl Fl out Ns = Ns Ar FILE`
-std::string flags(const Option& option) {
+std::string flags_of(const Option& option) {
   std::string out;
   for (const auto& name : option.short_names)
     out += fmt::format("{}Fl {}", out.empty() ? "" : " , ", word(name));
@@ -171,7 +171,7 @@ std::string synopsis(const Command& command) {
   out += fmt::format(".Nm orb {}\n", word(command.name));
   for (const auto& option : command.options)
     if (option.argument.empty() && !option.asks_for_help)
-      out += fmt::format(".{}{}\n", option.required ? "" : "Op ", flags(option));
+      out += fmt::format(".{}{}\n", option.required ? "" : "Op ", flags_of(option));
   for (const auto& option : command.options)
     if (!option.argument.empty())
       out += fmt::format(".{} {}{}\n", option.required ? "Ar" : "Op Ar", word(option.argument),
@@ -195,7 +195,7 @@ std::string sentence(std::string text) {
 std::string options_list(const Command& command) {
   std::string out;
   for (const auto& option : command.options) {
-    out += option.argument.empty() ? fmt::format(".It {}\n", flags(option))
+    out += option.argument.empty() ? fmt::format(".It {}\n", flags_of(option))
                                    : fmt::format(".It Ar {}\n", word(option.argument));
     auto text = sentence(option.summary);
     if (!option.words.empty())
@@ -217,8 +217,8 @@ std::string exit_status() {
   return out + ".El\n";
 }
 
-/// A reference to a page of this manual. Not `.Xr`: the lint looks such pages up among those that
-/// are installed.
+/// A reference to a page of this manual. Not `.Xr`: the linter would look for the page among
+/// installed ones.
 std::string reference(std::string_view file) {
   const auto dot = file.rfind('.');
   return fmt::format("\\fB{}\\fR({})", escape(file.substr(0, dot)), file.substr(dot + 1));

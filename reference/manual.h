@@ -7,14 +7,14 @@
 
 namespace orb::reference {
 
-/// A page of the manual as a file: `orb-check.1` and its mdoc source.
+/// A manual page as a file: `orb-check.1` and its mdoc source.
 struct ManualPage {
   std::string file;
   std::string text;
 };
 
-/// The whole manual, printed from the command line and the tables: `orb`, a page for each command,
-/// `orbbasic` and `orb-macro`.
+/// The complete manual, generated from the command line and the tables: `orb`, a page for each
+/// command, `orbbasic` and `orb-macro`.
 std::vector<ManualPage> manual(const CommandLine& line);
 
 } // namespace orb::reference

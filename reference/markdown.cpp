@@ -5,8 +5,8 @@
 #include <fmt/format.h>
 #include <map>
 
-// The pages of docs/reference/: each opens with a table, and a word that another page explains
-// leads to it.
+// The pages of docs/reference/. Each begins with a table; words that another page explains link to
+// it.
 
 namespace orb::reference {
 
@@ -19,7 +19,7 @@ std::string table_cell(std::string_view text) {
 
 namespace {
 
-/// The captions that the entries of a section use, in the order of their first appearance.
+/// The captions in the entries of a section, in order of first appearance.
 std::vector<std::string> captions(const Section& section) {
   std::vector<std::string> names;
   for (const auto& entry : section.entries)
@@ -29,7 +29,7 @@ std::vector<std::string> captions(const Section& section) {
   return names;
 }
 
-/// Sections whose entries all say the same kinds of things fit a table; others become chapters.
+/// True if all entries have the same kinds of facts; otherwise they become chapters.
 bool fits_table(const Section& section) {
   const auto plain = [](const Entry& entry) {
     return entry.explanation.empty() && entry.code.empty();
@@ -38,7 +38,7 @@ bool fits_table(const Section& section) {
          std::all_of(section.entries.begin(), section.entries.end(), plain);
 }
 
-/// Where a heading is found by a link: as forges make it of its text.
+/// The link target of a heading, as forges derive it from the text.
 std::string anchor(std::string_view heading) {
   std::string out;
   for (const char c : heading) {
@@ -50,7 +50,7 @@ std::string anchor(std::string_view heading) {
   return out;
 }
 
-/// The same of an entry: a heading whose link an earlier one has is numbered.
+/// The same for an entry; a duplicate heading gets a number.
 std::string anchor(const Section& section, const Entry& entry) {
   const auto own = anchor(entry.name);
   int earlier = 0;
@@ -62,16 +62,15 @@ std::string anchor(const Section& section, const Entry& entry) {
   return earlier == 0 ? own : fmt::format("{}-{}", own, earlier);
 }
 
-/// Where the pages explain what; made once for a page.
+/// Link targets of all words; computed once per page.
 class Links {
 public:
-  /// For links from the page of `here`.
+  /// For links on the page `here`.
   Links(const std::vector<Section>& sections, const Section& here) {
-    // These pages' words have another meaning wherever a text names them.
+    // Words of these pages mean something else in running text.
     const auto is_alone = [](const Section& section) { return section.id == "colours"; };
-    // A word of several languages leads to the one that the page is about. Only pages about
-    // structured programs, and about tests, lead to their words: elsewhere `sub` and `end` are
-    // something else.
+    // A word of several languages links to the page's own language. Only pages about structured
+    // programs and tests link to their words: elsewhere `sub` and `end` have another meaning.
     const auto own = language_of(here);
     for (const bool own_language : {true, false})
       for (const auto& section : sections)
@@ -81,8 +80,8 @@ public:
           add(section, here);
   }
 
-  /// Running text with its links: words in backticks that have an entry, and decisions.
-  /// `own` is the entry that the text is about.
+  /// Adds links to running text: words in backticks that have an entry, and decisions. `own`
+  /// is the entry that the text belongs to.
   std::string text(std::string_view plain, std::string_view own) const {
     std::string out;
     for (std::size_t at = 0; at < plain.size();) {
@@ -95,9 +94,8 @@ public:
                                                      : fmt::format("[{}]({})", code, place->second);
         at = end + 1;
       } else if (const auto decision = decision_at(plain, at); !decision.empty()) {
-        out += fmt::format("[{}](../{})", decision,
-                           decision.front() == 'A' ? "language.md#decisions"
-                                                   : "macros.md#what-the-sources-leave-open");
+        out += fmt::format("[{}](decisions.md#{})", decision,
+                           decision.front() == 'A' ? "orbbasic" : "macros");
         at += decision.size();
       } else {
         out += plain[at++];
@@ -126,7 +124,7 @@ private:
     }
   }
 
-  /// The decision named at `at`, `A-17` or `M-2`; empty where there is none.
+  /// The decision at `at`, `A-17` or `M-2`; empty if there is none.
   static std::string_view decision_at(std::string_view text, std::size_t at) {
     const bool starts = (text[at] == 'A' || text[at] == 'M') && text.substr(at + 1, 1) == "-" &&
                         (at == 0 || text[at - 1] == ' ' || text[at - 1] == '(');
@@ -139,7 +137,7 @@ private:
   std::map<std::string, std::string, std::less<>> places_;
 };
 
-/// A fact with its links; a source leads to what its key stands for.
+/// A fact with its links; a source links to the document behind its key.
 std::string fact_text(const Links& links, std::string_view own,
                       const std::pair<std::string, std::string>& fact) {
   const auto text = links.text(fact.second, own);
@@ -173,9 +171,9 @@ std::string table(const Section& section, const Links& links) {
   return out;
 }
 
-/// What stands before the chapters: each entry with its short facts and its summary.
+/// The table before the chapters: each entry with its short facts and its summary.
 std::string contents(const Section& section, const Links& links) {
-  constexpr std::size_t most = 12; // characters that leave room for the summary
+  constexpr std::size_t most = 12; // characters; leaves space for the summary
   auto names = captions(section);
   std::erase_if(names, [&](const std::string& name) {
     return !std::all_of(section.entries.begin(), section.entries.end(), [&](const Entry& entry) {
@@ -201,10 +199,10 @@ std::string contents(const Section& section, const Links& links) {
   return out;
 }
 
-/// What a fence holds (tests/docs/page.h). A mistake, or a line out of a program, is only text.
+/// The language of a code block (tests/docs/page.h). A bad example or a fragment is plain text.
 std::string_view fence(std::string_view section, std::string_view caption) {
   if (caption == "bad" || section.starts_with("test-") || section == "statements" ||
-      section == "words" || section == "functions")
+      section.starts_with("client-") || section == "words" || section == "functions")
     return "text";
   if (section.starts_with("api-"))
     return "sh";
@@ -245,7 +243,7 @@ std::string print_markdown(const std::vector<Section>& sections, const Section& 
   out += contents(section, links);
   for (const auto& entry : section.entries)
     out += chapter(section.id, entry, links);
-  out.pop_back(); // one line end at the end of the file
+  out.pop_back(); // end the file with a single line break
   return out;
 }
 

@@ -1,4 +1,4 @@
-// What the robot has that is one number each.
+// Features of the robot that are identified by a number.
 
 #include "reference/sections.h"
 #include "spec/ball.h"
@@ -10,9 +10,9 @@
 namespace orb::reference {
 namespace {
 
-/// A row of any of the tables, which have the same columns.
+/// Works for any of the tables, which share their columns.
 template <typename Row>
-Entry entry_of(const Row& row) {
+Entry number_entry(const Row& row) {
   Entry entry;
   entry.name = row.name;
   entry.summary = row.summary;
@@ -25,7 +25,7 @@ Entry entry_of(const Row& row) {
 template <typename Rows>
 Section with_rows(Section section, const Rows& rows) {
   for (const auto& row : rows)
-    section.entries.push_back(entry_of(row));
+    section.entries.push_back(number_entry(row));
   return section;
 }
 

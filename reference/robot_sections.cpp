@@ -1,4 +1,4 @@
-// What the tables of the robots know, and of the packets of the newer ones.
+// The tables of the robots, and of the newer robots' packets.
 
 #include "reference/sections.h"
 #include "spec/robots.h"
@@ -10,7 +10,7 @@
 namespace orb::reference {
 namespace {
 
-std::string_view type_name(spec::V2Type type) {
+std::string_view v2_type_name(spec::V2Type type) {
   switch (type) {
   case spec::V2Type::U8: return "u8";
   case spec::V2Type::U16: return "u16";
@@ -29,7 +29,7 @@ std::string fields_of(const Fields& fields, spec::V2Command command) {
   for (const spec::V2Field& field : fields) {
     if (field.command != command)
       continue;
-    out += fmt::format("{}{} {}", out.empty() ? "" : ", ", type_name(field.type), field.name);
+    out += fmt::format("{}{} {}", out.empty() ? "" : ", ", v2_type_name(field.type), field.name);
     if (field.least < field.most && field.type != spec::V2Type::Text &&
         field.type != spec::V2Type::Data)
       out += fmt::format(" {} to {}", field.least, field.most);
@@ -62,7 +62,7 @@ std::string lamps_of(std::uint32_t mask) {
   return out.empty() ? "none" : (std::has_single_bit(mask) ? "lamp " : "lamps ") + out;
 }
 
-/// What the words of programs set and read on a robot of packets v2.
+/// What program words set and read on a packets v2 robot.
 void add_words(Entry& entry, const spec::RobotInfo& row) {
   const bool matrix = spec::knows(row, spec::info(spec::V2Command::MatrixPixel));
   entry.facts.emplace_back("`RGB` and `LEDC`",
@@ -78,7 +78,7 @@ void add_words(Entry& entry, const spec::RobotInfo& row) {
                              fmt::format("drops what moves it for {} ms", wakes.count()));
 }
 
-/// Which words of programs mean nothing to the robot.
+/// The program words without effect on the robot.
 std::string lacks_of(spec::Robot robot) {
   std::string out;
   for (const auto& row : spec::robot_lacks)

@@ -1,7 +1,8 @@
-// What the linters look for.
+// The rules of the linters.
 
 #include "assembler/text/rules.h"
 #include "compiler/text/rules.h"
+#include "protocol/judge/rules.h"
 #include "reference/sections.h"
 #include "report/rules.h"
 #include "spec/basic.h"
@@ -16,7 +17,7 @@ namespace orb::reference {
 
 namespace {
 
-Entry entry_of(const Rule& rule) {
+Entry rule_entry(const Rule& rule) {
   Entry entry;
   entry.name = rule.id;
   entry.summary = rule.summary;
@@ -34,7 +35,7 @@ Entry entry_of(const Rule& rule) {
 
 Section with_rules(Section section, std::span<const Rule> rules) {
   for (const auto& rule : rules)
-    section.entries.push_back(entry_of(rule));
+    section.entries.push_back(rule_entry(rule));
   return section;
 }
 
@@ -60,6 +61,11 @@ Section stimulus_rules_section() {
 
 Section course_rules_section() {
   return with_rules({"course-rules", "Rules for courses", "course rule", {}}, report::rules::all());
+}
+
+Section client_rules_section() {
+  return with_rules({"client-rules", "Rules for clients of robots", "client rule", {}},
+                    protocol::rules::all());
 }
 
 Section test_rules_section() {

@@ -1,13 +1,13 @@
 #pragma once
 
-// The chapters of knowledge(), each made from one table. Only reference/knowledge.cpp and the
-// editor call them.
+// The chapters of knowledge(), one per table. Called only by reference/knowledge.cpp and the
+// editor.
 
 #include "reference/knowledge.h"
 
 namespace orb::reference {
 
-/// `text` fit for a cell of a Markdown table.
+/// Escapes `text` for a cell of a Markdown table.
 std::string table_cell(std::string_view text);
 
 Section statements_section();
@@ -30,6 +30,7 @@ Section macro_rules_section();
 Section stimulus_section();
 Section stimulus_rules_section();
 Section course_rules_section();
+Section client_rules_section();
 Section test_lines_section();
 Section expectations_section();
 Section test_rules_section();
@@ -41,5 +42,7 @@ Section firmwares_section();
 Section ball_section();
 Section robots_section();
 Section robot_commands_section();
+Section edu_calls_section();
+Section edu_events_section();
 
 } // namespace orb::reference

@@ -1,4 +1,4 @@
-// The words of tests and of stimulus scripts.
+// The words of tests and stimulus scripts.
 
 #include "reference/sections.h"
 #include "testing/text/vocabulary.h"
@@ -9,7 +9,7 @@
 namespace orb::reference {
 namespace {
 
-/// A word with how it is written and an example.
+/// A word with its syntax and an example.
 template <class Row>
 Entry entry_of(const Row& row, std::string_view before) {
   Entry entry;
@@ -20,7 +20,7 @@ Entry entry_of(const Row& row, std::string_view before) {
   return entry;
 }
 
-/// When an expectation may be judged.
+/// The times at which an expectation can be judged.
 std::string_view times_of(testing::Kind kind) {
   using testing::Kind;
   switch (kind) {
@@ -66,7 +66,7 @@ Section test_lines_section() {
   for (const auto& row : testing::when_words)
     section.entries.push_back(entry_of(row, "expect WHAT "));
   for (const auto& row : testing::join_words)
-    if (&row != &testing::info(testing::JoinWord::Lasts)) // `for` is there as a line
+    if (&row != &testing::info(testing::JoinWord::Lasts)) // `for` is listed as a line
       section.entries.push_back(entry_of(row, "expect WHAT "));
   return section;
 }

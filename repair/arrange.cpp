@@ -15,7 +15,7 @@ namespace {
 
 constexpr auto one = Quantity::one;
 
-/// What a unit counts, in thousandths.
+/// The value of one unit, in thousandths.
 std::optional<Quantity> unit_of(const Token& token) {
   if (token.is("%") || holds("percent prozent porcento", token.text))
     return Quantity{one, Measure::Percent};
@@ -30,7 +30,7 @@ std::optional<Quantity> unit_of(const Token& token) {
   return std::nullopt;
 }
 
-/// A number in thousandths; nothing where it is finer or longer.
+/// Parses a number into thousandths; nothing if it is too precise or too long.
 std::optional<std::int64_t> thousandths_of(std::string_view text) {
   if (const auto value = hexadecimal(text))
     return *value <= UINT32_MAX ? std::optional(*value * one) : std::nullopt;
@@ -38,9 +38,9 @@ std::optional<std::int64_t> thousandths_of(std::string_view text) {
   return text.substr(0, text.find('.')).size() <= longest ? thousandths_in(text) : std::nullopt;
 }
 
-/// What an operator makes of two values; nothing where they do not go together.
+/// Applies an operator to two values; nothing if their measures do not match.
 std::optional<Quantity> computed(const Quantity& a, char sign, const std::optional<Quantity>& b) {
-  constexpr std::int64_t most = 3'000'000'000; // thousandths, of which the product is a number yet
+  constexpr std::int64_t most = 3'000'000'000; // thousandths whose product still fits
   const bool scales = sign == '*' || sign == '/';
   if (!b || std::abs(a.thousandths) > most || std::abs(b->thousandths) > most ||
       (sign == '/' && (b->thousandths == 0 || b->measure != Measure::Number)) ||
@@ -56,7 +56,7 @@ std::optional<Quantity> computed(const Quantity& a, char sign, const std::option
                   a.measure == Measure::Number ? b->measure : a.measure};
 }
 
-/// Reads values from left to right; `*`, `/`, `+` and `-` compute.
+/// Reads values from left to right and evaluates `*`, `/`, `+` and `-`.
 class Values {
 public:
   Values(const Tokens& tokens, const Quantities& known) : tokens_(tokens), known_(known) {}
@@ -128,7 +128,7 @@ private:
   std::size_t at_ = 0;
 };
 
-/// A quantity as tests and macros write it.
+/// Prints a quantity in the notation of tests and macros.
 std::string written(const Quantity& value) {
   const auto number = thousandths_text(value.thousandths);
   switch (value.measure) {
@@ -143,17 +143,17 @@ std::string written(const Quantity& value) {
   return {};
 }
 
-/// A value as it was written.
+/// A value as written.
 struct Given {
-  std::string_view name; ///< of its operand, where that was said
+  std::string_view name; ///< of its operand, if given
   Quantity number;
-  std::string word; ///< empty where it is a number
-  std::string text; ///< as it was written, where it can stay so
+  std::string word; ///< empty for a number
+  std::string text; ///< as written, if it can stay so
 
   bool is_number() const { return word.empty() && number.measure == Measure::Number; }
 };
 
-/// A value as an operand has it.
+/// A value in the notation of its operand.
 struct Settled {
   std::string text;
   bool sure = true;
@@ -209,7 +209,7 @@ private:
                        [&](const Given& value) { return value.name == name; });
   }
 
-  /// The operand that a word names; nothing where none is called so, or it has its value.
+  /// The operand that a word names; nothing if there is none, or if it already has a value.
   const Operand* named(const Token& token) const {
     for (const auto& operand : operands_)
       if (equal_words(operand.name, token.text))
@@ -220,7 +220,7 @@ private:
     return nullptr;
   }
 
-  /// How a word that stands for a value is written; empty where it stands for none.
+  /// The spelling of a word that denotes a value; empty if it does not.
   std::string_view value_word(const Token& token) const {
     for (const auto& operand : operands_)
       for (const auto word : operand.words)
@@ -229,13 +229,14 @@ private:
     return {};
   }
 
-  /// Quoted numbers are numbers, `=-` is two signs, and `%` behind more than a hundred is none.
+  /// Normalizes values: unquotes numbers, splits `=-` into two signs, drops `%` after more than a
+  /// hundred.
   Tokens plain(Tokens tokens) const {
     if (tokens.size() > 2 && tokens.front().is("(") && tokens.back().is(")"))
       tokens = slice(tokens, 1, tokens.size() - 1);
     constexpr int hundred = 100;
     Tokens all;
-    bool parts = true; // of a hundred
+    bool parts = true; // parts of a hundred
     for (const auto& token : tokens) {
       if (token.is("=-"))
         append(all, {Token{Token::Kind::Sign, "=", token.gap}, Token{Token::Kind::Sign, "-"}});
@@ -245,7 +246,7 @@ private:
       else
         all.push_back(token);
       if (token.is("/") && operands_.size() > 1)
-        all.back().text = ","; // parts values
+        all.back().text = ","; // separates values
       parts = parts && !(token.is("%") && all.size() > 1 &&
                          parse_number<int>(all[all.size() - 2].text).value_or(0) > hundred);
     }
@@ -256,7 +257,7 @@ private:
 
   bool read(const Tokens& tokens) {
     const auto all = plain(tokens);
-    // Where several are named, `red 255` is one value, else `red` is a colour.
+    // If several channels are named, `red 255` is one value; otherwise `red` is a colour.
     const bool one_channel = std::count_if(all.begin(), all.end(), [](const Token& token) {
                                return token.is("red") || token.is("green") || token.is("blue");
                              }) < 2;
@@ -272,7 +273,7 @@ private:
     return name.empty();
   }
 
-  /// Takes a value that ends before the token at hand.
+  /// Adds a value that ends before the current token.
   bool give(Given value, std::string_view& name) {
     value.name = std::exchange(name, {});
     given_.push_back(std::move(value));
@@ -283,7 +284,7 @@ private:
     const auto from = values.at();
     const auto text = values.here().text;
     const auto number = values.sum();
-    const bool whole = values.at() == from + 1; // a number, or a name for it
+    const bool whole = values.at() == from + 1; // a number, or a name for one
     return number && give({{}, *number, {}, whole ? text : std::string()}, name);
   }
 
@@ -331,7 +332,7 @@ private:
     values.skip();
     const auto word = value_word(token);
     if (word.empty() && name.empty() && is_called("", token.text))
-      return true; // a word that says nothing: `for`, `at`
+      return true; // a filler word: `for`, `at`
     if (!word.empty())
       return give({{}, {}, std::string(word), {}}, name);
     if (const auto count = count_of(token); count > 0 && operands_.size() == 1)
@@ -357,7 +358,7 @@ private:
     return false;
   }
 
-  /// The first operand that has no value and suits; those that may lack come last.
+  /// The first matching operand without a value; optional ones come last.
   std::size_t place_for(const Given& value) const {
     for (const bool optional : {false, true})
       for (std::size_t i = 0; i < operands_.size(); ++i)
@@ -381,7 +382,7 @@ private:
     const auto plain =
         std::count_if(operands_.begin(), operands_.end(),
                       [](const Operand& operand) { return operand.counts <= Counts::Speed; });
-    const auto tells = [plain](const Given& value) { // of which operand it is
+    const auto tells = [plain](const Given& value) { // true if it identifies its operand
       return value.number.measure != Measure::Number &&
              (value.number.measure != Measure::Percent || plain == 1);
     };
@@ -401,8 +402,8 @@ private:
     return true;
   }
 
-  /// A number that is too large where it stands goes where alone it fits. Beside a 0 it is no
-  /// speed: the ball rests.
+  /// Moves a number that is too large for its operand to the only one where it fits. Next to a 0 it
+  /// is not a speed: the ball rests.
   void place_large() {
     const bool rests = std::any_of(given_.begin(), given_.end(), [](const Given& value) {
       return value.name.empty() && value.is_number() && value.number.thousandths == 0;
@@ -425,7 +426,7 @@ private:
     }
   }
 
-  /// A speed below 0 drives back.
+  /// A negative speed drives backward: turns the heading round.
   void turn_round() {
     const auto change = [&](const Given* value, std::int64_t factor, std::int64_t more) {
       auto& given = given_[static_cast<std::size_t>(value - given_.data())];
@@ -441,7 +442,7 @@ private:
       }
   }
 
-  /// Whether a byte was meant as a part of 1.
+  /// True if a byte was meant as a fraction of 1.
   bool is_fraction(const Given& value, const Operand& operand) const {
     const auto all_of = [&](auto fits) {
       return std::all_of(given_.begin(), given_.end(), [&](const Given& each) {
@@ -469,7 +470,7 @@ private:
     const bool plain = number.measure == Measure::Number;
     constexpr std::int64_t circle = 6284; // thousandths of a radian
     if (number.thousandths % one != 0) {
-      if (plain && operand.counts == Counts::Milliseconds) // so many seconds
+      if (plain && operand.counts == Counts::Milliseconds) // meant in seconds
         return Settled{written({number.thousandths * one, Measure::Time})};
       if (!plain || operand.counts != Counts::Degrees || std::abs(number.thousandths) > circle)
         return std::nullopt;

@@ -9,7 +9,7 @@
 
 namespace orb::repair {
 
-/// What a line is to a block, by the words that structured programs have for it.
+/// The role of a line in a block, by the words of structured programs.
 enum class Role : std::uint8_t {
   None,
   If,
@@ -23,26 +23,26 @@ enum class Role : std::uint8_t {
   Exit,
   Continue,
   End,
-  Stop, ///< `end`, which ends the program and, where nothing else does, a block
+  Stop, ///< `end`, which ends the program, or a block if nothing else does
 };
 
 /// A line of a numbered program that is written in blocks.
 struct BlockLine {
   std::uint32_t line = 0; ///< of the source
   std::uint32_t number = 0;
-  std::size_t indent = 0; ///< blanks after the number
+  std::size_t indent = 0; ///< spaces after the number
   std::string comment;
   Role role = Role::None;
-  Tokens operand;        ///< a condition, a number of times, `I = 1 to 3`
-  std::string_view ends; ///< of an End: the word of the block; empty: of any
-  bool colon = false;    ///< it was written with a `:` at its end
-  std::string text;      ///< what becomes of it, without its number
-  bool changed = false;  ///< `text` counts
-  std::string below;     ///< a line that is added
+  Tokens operand;        ///< a condition, a count, `I = 1 to 3`
+  std::string_view ends; ///< for an End: the word of the block; empty: any
+  bool colon = false;    ///< ends with a `:`
+  std::string text;      ///< the replacement, without its number
+  bool changed = false;  ///< `text` is valid
+  std::string below;     ///< a line to add below
   bool gone() const { return changed && text.empty(); }
 };
 
-/// An end or a part of a block, and which block it ends.
+/// An end or a part of a block, with the block it belongs to.
 struct BlockWord {
   std::string_view form;
   Role role;

@@ -6,13 +6,13 @@
 
 namespace orb::repair {
 
-/// A statement, or several with `\n` between them, that a line may have been meant to be: without
-/// the number in front and the comment behind.
+/// A proposed replacement for a line: a statement, or several separated by `\n`, without line
+/// number and comment.
 struct Candidate {
   std::string text;
-  int cost = 0;                   ///< in tenths of a changed token; a slip of the hand is below 10
-  const orb::Text* why = nullptr; ///< what is said beside the line; null where nothing is
-  bool sure = true;               ///< nothing else can have been meant
+  int cost = 0;                   ///< in tenths of a changed token; below 10: a typo
+  const orb::Text* why = nullptr; ///< a remark shown beside the line; null: none
+  bool sure = true;               ///< no other meaning is possible
 };
 
 } // namespace orb::repair

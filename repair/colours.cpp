@@ -19,7 +19,7 @@ const spec::Colour* named_colour(const Token& token) {
   return lists.empty() ? nullptr : &spec::colours[lists.front()];
 }
 
-/// What LEDC calls so; nothing where it has no such colour.
+/// The colour of LEDC with this name; nothing if there is none.
 const spec::LedColour* led_colour(const spec::Colour* named) {
   const auto* const found =
       std::find_if(spec::led_colours.begin(), spec::led_colours.end(), [&](const auto& one) {
@@ -38,7 +38,7 @@ std::optional<std::uint32_t> find_colour(const Token& token) {
     return digits.size() == 6 ? parse_number<std::uint32_t>(digits, 16) : std::nullopt;
   }
   const auto* const named = named_colour(token);
-  if (const auto* const led = led_colour(named)) // full, as a word of a lamp is meant
+  if (const auto* const led = led_colour(named)) // full brightness, as for lamps
     return led->red << 16 | led->green << 8 | led->blue;
   return named != nullptr ? std::optional(named->rgb) : std::nullopt;
 }

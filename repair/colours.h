@@ -11,7 +11,7 @@
 
 namespace orb::repair {
 
-/// A colour as FUNCTION of a template writes it: `rgb` its three values, `code` that of LEDC,
+/// Prints a colour for FUNCTION of a template: `rgb` its three values, `code` its number in LEDC,
 /// `testcolour` a word of a test file, anything else a word of structured programs.
 std::optional<std::string> write_colour(std::string_view function, const Tokens& tokens);
 

@@ -17,12 +17,12 @@ namespace orb::repair {
 namespace {
 
 constexpr std::int64_t second_ms = 1000;
-constexpr std::int64_t most_seconds = 20; // a wait for so few was meant in seconds
+constexpr std::int64_t most_seconds = 20; // a wait below this was meant in seconds
 constexpr std::int64_t largest = 2147483647;
 
 using Text = std::optional<std::string>;
 
-/// A number in thousandths, with a point or without.
+/// Parses a number into thousandths, with or without a point.
 std::optional<std::int64_t> thousandths(const Token& token) {
   constexpr std::size_t longest = 12;
   return token.is_number() && token.text.size() <= longest ? thousandths_in(token.text)
@@ -36,7 +36,7 @@ std::optional<std::int64_t> whole(const Tokens& tokens) {
   return value && *value % second_ms == 0 ? std::optional(*value / second_ms) : std::nullopt;
 }
 
-/// A value as a factor: in parentheses where an operator shows.
+/// Prints a value as a factor: in parentheses if it contains an operator.
 std::string as_factor(const Tokens& tokens) {
   const auto text = join(tokens);
   int depth = 0;
@@ -67,7 +67,7 @@ Text plus(const Tokens& tokens, std::int64_t step) {
 
 enum class Assume : std::uint8_t { Milliseconds, Seconds, Either };
 
-/// Milliseconds, and whether they were said with a unit, or are seconds.
+/// A time in milliseconds; `has_unit` is false for a bare number.
 struct Time {
   std::int64_t ms;
   bool has_unit;
@@ -103,9 +103,9 @@ Text written_time(const Tokens& tokens, Assume assume, Language language) {
   if (tokens.size() == 1 && tokens[0].is_text())
     return written_time(tokens_of(tokens[0].text, language), assume, language);
   constexpr std::int64_t longest_ms =
-      1'000'000; // nobody waits so long: `delay 1000s` counted in ms
+      1'000'000; // longer waits come from `delay 1000s` counted in ms
   if (auto time = time_of(tokens, assume)) {
-    if (time->ms >= longest_ms && tokens.back().is("m")) // `500m`: a letter lacks
+    if (time->ms >= longest_ms && tokens.back().is("m")) // `500m`: the `s` is missing
       time->ms /= 60 * second_ms;
     else if (time->ms >= longest_ms && time->ms % second_ms == 0)
       time->ms /= second_ms;
@@ -119,15 +119,15 @@ Text written_time(const Tokens& tokens, Assume assume, Language language) {
       return std::nullopt;
   if (const auto size = tokens.size(); assume == Assume::Seconds && size > 2 &&
                                        tokens[size - 2].is("/") && tokens[size - 1].is("1000"))
-    return join(slice(tokens, 0, size - 2)); // milliseconds, once
+    return join(slice(tokens, 0, size - 2)); // already in milliseconds
   return assume == Assume::Seconds ? fmt::format("{} * 1000", as_factor(tokens)) : join(tokens);
 }
 
-/// A time of a test file: always with its unit.
+/// A time in the notation of tests, always with its unit.
 Text clock(const Tokens& tokens) {
   if (tokens.size() == 1 && tokens[0].is("end"))
     return "end";
-  constexpr std::int64_t most_plain = 200; // of a number without a unit, in seconds
+  constexpr std::int64_t most_plain = 200; // limit for a number without a unit to be seconds
   const auto plain = whole(tokens);
   const auto time =
       time_of(tokens, plain && *plain <= most_plain ? Assume::Seconds : Assume::Either);
@@ -148,7 +148,7 @@ Text length(const Tokens& tokens) {
              : std::nullopt;
 }
 
-/// A length, more or less, as a first and a last one: in centimetres.
+/// A length with a tolerance as a range in centimetres.
 Text around_length(const Tokens& middle, const Tokens& tolerance) {
   const auto centimetres = [](const Tokens& tokens) -> std::optional<std::int64_t> {
     const auto* const unit =
@@ -163,8 +163,8 @@ Text around_length(const Tokens& middle, const Tokens& tolerance) {
                                   : std::nullopt;
 }
 
-/// A value as a condition: sensors that only know yes and no are compared with yes. A number asks
-/// nothing.
+/// Turns a value into a condition: boolean sensors are compared with 1. A plain number is not a
+/// condition.
 Text as_comparison(const Tokens& tokens) {
   if (tokens.size() == 1 && tokens[0].is_number())
     return std::nullopt;
@@ -172,7 +172,7 @@ Text as_comparison(const Tokens& tokens) {
   return text + (holds("dshake isconn cmdroll cmdrgb ctrl", text) ? " = 1" : " ! 0");
 }
 
-/// `a` to `b` by the robot's `rnd`, which gives 1 to its value.
+/// A random number from `a` to `b` by the robot's `rnd`, which gives 1 to its operand.
 Text dice(const Tokens& from, const Tokens& to, Language language) {
   const auto a = whole(from);
   const auto b = whole(to);
@@ -182,14 +182,14 @@ Text dice(const Tokens& from, const Tokens& to, Language language) {
                                                 : fmt::format("rnd({})", *b - *a + 1);
   if (*a == 1)
     return call;
-  // An operand of `rnd` goes to the end of the expression on the robot.
+  // On the robot, an operand of `rnd` extends to the end of the expression.
   if (language == Language::Basic)
     return *a > 1 ? fmt::format("{} + rnd {}", *a - 1, *b - *a + 1)
                   : fmt::format("(rnd {}) - {}", *b - *a + 1, 1 - *a);
   return *a > 1 ? fmt::format("{} + {}", call, *a - 1) : fmt::format("{} - {}", call, 1 - *a);
 }
 
-/// A factor with decimal places as a fraction; its inverse.
+/// A decimal factor as a fraction, or its inverse.
 Text fraction(const Tokens& tokens, bool inverse) {
   const auto value = tokens.size() == 1 ? thousandths(tokens[0]) : std::nullopt;
   if (!value || *value == 0 || *value % second_ms == 0)
@@ -200,7 +200,7 @@ Text fraction(const Tokens& tokens, bool inverse) {
   return fmt::format("{} / {}", above, below);
 }
 
-/// Three values, or a colour.
+/// Three values, or a colour as its three values.
 Text channels(const Tokens& tokens) {
   if (tokens.size() == 1)
     return write_colour("rgb", tokens);
@@ -210,7 +210,7 @@ Text channels(const Tokens& tokens) {
              : join(tokens);
 }
 
-/// `int n, int m`: the names alone.
+/// Strips types from parameters: `int n, int m`.
 Text parameters(const Tokens& tokens) {
   std::string out;
   for (std::size_t i = 0; i < tokens.size(); ++i)
@@ -232,7 +232,7 @@ Text hex_word(const Token& token) {
                                                                 : std::nullopt;
 }
 
-/// A colour as one number: `FF8000`, `0xFF8000`, or what orbBasic has read of that.
+/// A colour as one number: `FF8000`, `0xFF8000`, or the number that orbBasic reads for it.
 Text hex_colour(const Token& token, Language language) {
   std::string_view digits = token.text;
   const bool prefixed = digits.size() > 1 && digits[0] == '0' && to_lower(digits[1]) == 'x';
@@ -246,7 +246,7 @@ Text hex_colour(const Token& token, Language language) {
   return fmt::format("{},{},{}", *value >> 16, *value >> 8 & 0xFF, *value & 0xFF);
 }
 
-/// `0 to 5` for `0, 1, 2, 3, 4, 5`; nothing where the numbers do not follow each other.
+/// Prints `0, 1, 2, 3, 4, 5` as `0 to 5`; nothing if the numbers are not consecutive.
 Text counted(const Tokens& list) {
   for (std::size_t i = 0; i < list.size(); ++i)
     if (i % 2 == 1 ? !list[i].is(",")
@@ -255,7 +255,7 @@ Text counted(const Tokens& list) {
   return list.size() > 2 ? Text(list.front().text + " to " + list.back().text) : std::nullopt;
 }
 
-/// `c = 1 or c = 2` for a list and `c`.
+/// Prints `c = 1 or c = 2` for a list and `c`.
 Text any_of(const Tokens& list, const Tokens& value) {
   std::string all;
   for (const auto& token : list) {
@@ -268,7 +268,7 @@ Text any_of(const Tokens& list, const Tokens& value) {
   return all;
 }
 
-/// Scratch's parameters: `(r) (g) (b)` are `(r, g, b)`.
+/// Scratch parameters: `(r) (g) (b)` becomes `(r, g, b)`.
 Text groups(const Tokens& tokens) {
   std::string all;
   for (std::size_t i = 0; i < tokens.size(); i += 3) {
@@ -280,7 +280,7 @@ Text groups(const Tokens& tokens) {
   return "(" + all + ")";
 }
 
-/// A range of lengths: few are metres, many centimetres.
+/// A range of lengths: small numbers are metres, large ones centimetres.
 Text span(const Tokens& from, const Tokens& to) {
   constexpr std::int64_t most_metres = 20;
   const auto most = whole(to);
@@ -288,10 +288,10 @@ Text span(const Tokens& from, const Tokens& to) {
   return whole(from) && most ? Text(join(from) + unit + ".." + join(to) + unit) : std::nullopt;
 }
 
-/// What a function of a template works with.
+/// The input of a template function.
 struct Holding {
   const Tokens& a; ///< the hole
-  const Tokens& b; ///< a second one, empty where it names one
+  const Tokens& b; ///< a second one, empty unless the template names it
   const Holes& holes;
   const Surroundings& around;
 
@@ -328,7 +328,7 @@ Text clock_face(const Holding& held) {
              : std::nullopt;
 }
 
-/// `60 000`
+/// Joins `60 000`.
 Text thousands(const Holding& held) {
   const auto& [a, b, holes, around] = held;
   const bool parted = a.size() == 1 && b.size() == 1 && a[0].text.size() <= 3 &&
@@ -336,7 +336,7 @@ Text thousands(const Holding& held) {
   return parted ? Text(a[0].text + b[0].text) : std::nullopt;
 }
 
-/// Without what it is wrapped in.
+/// Strips quotes or parentheses around the whole.
 Text bare(const Tokens& a) {
   if (a.size() == 1 && a[0].is_text())
     return a[0].text;
@@ -365,7 +365,7 @@ bool has(const std::vector<std::string_view>& words, std::string_view word) {
   return std::find(words.begin(), words.end(), word) != words.end();
 }
 
-/// Numbers side by side, with the commas that are missing.
+/// Adjacent numbers with the missing commas.
 Text values_apart(const Holding& held) {
   std::string out;
   for (const auto& token : held.a) {
@@ -377,7 +377,7 @@ Text values_apart(const Holding& held) {
   return out;
 }
 
-/// The name of a test function as people write a title: `test_stops_early`, "stops early".
+/// The name of a test function as a title: `test_stops_early` becomes "stops early".
 std::string title(std::string name) {
   for (const auto* const begin : {"test_", "it_", "should_"})
     if (name.starts_with(begin))
@@ -391,29 +391,29 @@ struct Function {
   Text (*call)(const Holding&);
 };
 constexpr auto functions = std::to_array<Function>({
-    // times, in milliseconds or with a unit; no time at all is another habit
+    // times, in milliseconds or with a unit; a zero time is another idiom
     {"sec",
      [](const Holding& held) {
        return whole(held.a) == 0 ? std::nullopt : written_time(held.a, Assume::Seconds, held.language());
      }},
     {"wait", [](const Holding& held) { return written_time(held.a, Assume::Either, held.language()); }},
     {"ms", [](const Holding& held) { return written_time(held.a, Assume::Milliseconds, held.language()); }},
-    {"lasting", // no `go` of a roll, 0 or 1
+    {"lasting", // not the `go` of a roll, 0 or 1
      [](const Holding& held) {
        const auto value = whole(held.a);
        return value == 0 || value == 1 ? std::nullopt
                                        : written_time(held.a, Assume::Seconds, held.language());
      }},
-    {"brief", // no speed, and no heading
+    {"brief", // neither a speed nor a heading
      [](const Holding& held) {
        const bool other = whole(held.a).value_or(0) >= most_seconds ||
                           (held.a.size() == 1 && is_called("heading", held.a[0].text));
        return other ? std::nullopt : written_time(held.a, Assume::Seconds, held.language());
      }},
-    {"pace", // too long for seconds
+    {"pace", // too large for seconds
      [](const Holding& held) { return only(whole(held.a).value_or(0) >= most_seconds, join(held.a)); }},
     {"commas", values_apart},
-    {"later", // no part of a colour
+    {"later", // not a colour channel
      [](const Holding& held) {
        return whole(held.a).value_or(UINT8_MAX + 1) > UINT8_MAX
                   ? written_time(held.a, Assume::Milliseconds, held.language())
@@ -437,12 +437,12 @@ constexpr auto functions = std::to_array<Function>({
     {"speed", [](const Holding& held) { return only(whole(held.a).value_or(0) > 0, join(held.a)); }},
     {"length", [](const Holding& held) { return length(held.a); }},
     {"around", [](const Holding& held) { return around_length(held.a, held.b); }},
-    {"bearing", // no name of the program
+    {"bearing", // not a name of the program
      [](const Holding& held) {
        return held.a.size() == 1 && has(held.around.names, held.a[0].text) ? std::nullopt
                                                                           : bearing(held.a);
      }},
-    {"compass", // a heading, no turns
+    {"compass", // a heading, not a number of turns
      [](const Holding& held) {
        const bool turns = whole(held.a).value_or(0) >= full_circle || has_token(held.a, "-");
        return only(!turns, join(held.a));
@@ -480,13 +480,13 @@ constexpr auto functions = std::to_array<Function>({
     {"anyof", [](const Holding& held) { return any_of(held.a, held.b); }},
     {"true", [](const Holding& held) { return as_comparison(held.a); }},
     {"dice", [](const Holding& held) { return dice(held.a, held.b, held.language()); }},
-    {"below", // the second value is not one of them
+    {"below", // the second value is not among them
      [](const Holding& held) {
        return dice(held.a, tokens_of(plus(held.b, -1).value_or(""), held.language()), held.language());
      }},
 
     // words
-    {"operand", // no unit, and no digit in the shape of a letter
+    {"operand", // not a unit, and not a letter that looks like a digit
      [](const Holding& held) {
        const bool value = held.a.size() == 1 && (held.language() != Language::Basic ||
                                                  held.a[0].text.size() > 1 || to_lower(held.a[0].text[0]) != held.a[0].text[0]);
@@ -496,12 +496,12 @@ constexpr auto functions = std::to_array<Function>({
      }},
     {"items", [](const Holding& held) { return print_items(held.a); }},
     {"count", [](const Holding& held) { return counted(held.a); }},
-    {"quoted", // not what a program sets
+    {"quoted", // not a variable of the program
      [](const Holding& held) {
        return held.language() == Language::Basic && holds_name(held.a, held.around) ? std::nullopt
                                                                            : Text(quoted(held.a));
      }},
-    {"said", // all of it, with no time behind
+    {"said", // everything, without a time at the end
      [](const Holding& held) {
        const bool timed = std::any_of(held.a.begin(), held.a.end(), [](const Token& token) {
          return token.is("within") || token.is("at") || token.is("during") || token.is("times") ||
@@ -520,13 +520,13 @@ constexpr auto functions = std::to_array<Function>({
        return held.a.size() == 1 && has(held.around.names, held.a[0].text) ? Text(held.a[0].text)
                                                                   : std::nullopt;
      }},
-    {"output", // what Logo calls `output`
+    {"output", // the meaning of `output` in Logo
      [](const Holding& held) {
        return held.around.in_function ? Text("return " + join(held.a)) : std::nullopt;
      }},
-    {"alone", // what other lines read was not meant for the ball
+    {"alone", // a name that other lines read was not meant for the ball
      [](const Holding& held) { return only(!has(held.around.elsewhere, held.holes.choice), ""); }},
-    {"apart", // where the other does not count
+    {"apart", // a value that does not contain the other one
      [](const Holding& held) {
        const auto& other = held.b;
        const bool has_it = std::search(held.a.begin(), held.a.end(), other.begin(), other.end(),
@@ -535,7 +535,7 @@ constexpr auto functions = std::to_array<Function>({
                                        }) != held.a.end();
        return only(!has_it, join(held.a));
      }},
-    {"called", // in a program that calls subroutines
+    {"called", // in a program with `gosub`
      [](const Holding& held) { return only(has(held.around.elsewhere, "gosub"), ""); }},
     {"index", // which is not `Y` already
      [](const Holding& held) {
@@ -571,18 +571,18 @@ Text name_of(std::string_view name, const Holes& holes, const Surroundings& arou
     return known(around.first_number);
   if (name == "free")
     return known(around.free_letter);
-  if (name == "nought" || name == "second") // what was left out
+  if (name == "nought" || name == "second") // an omitted value
     return name == "second" ? "1s" : "0";
   if (name == "loop")
     return known(around.loop);
-  if (name == "returns") // in a program that calls subroutines
+  if (name == "returns") // in a program with `gosub`
     return has(around.elsewhere, "gosub") ? Text("return") : std::nullopt;
   if (name == "leaves") // at the end of a subroutine
     return around.ends_sub ? Text("return") : std::nullopt;
   if (name == "label")
     return known(around.label);
   if (name == "closer" && around.closer == "-")
-    return Text(""); // what begins the program needs no end
+    return Text(""); // the start of the program needs no end
   if (name == "closer")
     return known(around.closer);
   if (name == "fn")
@@ -591,7 +591,7 @@ Text name_of(std::string_view name, const Holes& holes, const Surroundings& arou
     return join(holes.rest);
   if (name == "right" || name == "left")
     return std::to_string((around.heading + (name == "right" ? 90 : 270)) % 360);
-  if (name == "brake") { // what drives
+  if (name == "brake") { // stops a moving ball
     const auto* const comma = around.language == Language::Basic ? "," : ", ";
     return around.pace.empty() ? std::nullopt
                                : Text(fmt::format("goroll {}{}0{}0", around.heading, comma, comma));
@@ -614,7 +614,7 @@ bool holds_name(const Tokens& tokens, const Surroundings& around) {
 
 namespace {
 
-/// The opposite of one comparison, or of a value alone.
+/// The opposite of one comparison, or of a single value.
 std::optional<std::string> opposite_comparison(const Tokens& tokens) {
   std::size_t at = tokens.size();
   std::size_t relations = 0;
@@ -650,7 +650,7 @@ std::optional<std::string> opposite_comparison(const Tokens& tokens) {
                : std::nullopt;
 }
 
-/// Without the parentheses around all of it.
+/// Strips parentheses around the whole.
 Tokens bared(Tokens tokens) {
   while (tokens.size() > 2 && tokens.front().is("(")) {
     int depth = 0;
@@ -671,7 +671,7 @@ Tokens bared(Tokens tokens) {
 
 std::optional<std::string> opposite(Tokens condition, Language language) {
   if (condition.size() <= 2 && condition.front().is_number())
-    return std::nullopt; // a number or a time is no condition
+    return std::nullopt; // a number or a time is not a condition
   if (language != Language::Basic)
     return condition.size() == 1 ? "not " + join(condition)
                                  : fmt::format("not ({})", join(condition));

@@ -23,7 +23,7 @@ constexpr auto topics = std::to_array<Topic>({
 #include "repair/idioms.def"
 });
 
-/// What words are about; `filler` is about nothing.
+/// The topics of a word; `filler` has none.
 std::vector<std::string_view> topics_of(std::string_view word) {
   static const WordIndex index(topics, [](const Topic& topic) { return topic.words; });
   std::vector<std::string_view> found;
@@ -33,16 +33,16 @@ std::vector<std::string_view> topics_of(std::string_view word) {
 }
 
 struct Value {
-  std::string_view name; ///< heading, speed or time, where a word or a unit tells
-  Tokens tokens;         ///< with its unit
+  std::string_view name; ///< heading, speed or time, if a word or a unit tells
+  Tokens tokens;         ///< including its unit
 };
 
-/// The words of a line, each put to its use.
+/// Classifies the words of a line.
 class Gist {
 public:
   explicit Gist(const Surroundings& around) : around_(around) {}
 
-  /// False where a word is left over.
+  /// Returns false if a word remains unused.
   bool read(const Tokens& line) {
     if (is_own(line[0]) && assigns(line, 1))
       return false;
@@ -110,7 +110,7 @@ private:
     return sign || line[at].is_number() || is_own(line[at]);
   }
 
-  /// `direction` before a value, which it names, though the program has such a name, too.
+  /// True if `direction` before a value names the value, even if the program has such a variable.
   bool names_value(const Tokens& line, std::size_t at) const {
     return is_own(line[at]) && line[at].text.size() > 1 && at + 1 < line.size() &&
            !about_.empty() && (is_own(line[at + 1]) || line[at + 1].is_number()) &&
@@ -118,7 +118,7 @@ private:
             is_called("speed", line[at].text));
   }
 
-  /// `side * 2`, `90 deg`, `seen[i + 1]`
+  /// Takes a value: `side * 2`, `90 deg`, `seen[i + 1]`.
   void take_value(const Tokens& line, std::size_t& at) {
     const auto from = at;
     at += line[at].is("-") ? 2 : 1;
@@ -190,7 +190,7 @@ private:
       return false;
     ++at;
     if (milliseconds_of(token.text) > 0 && !values_.empty() && values_.back().name.empty()) {
-      values_.back().name = "time"; // behind a parenthesis
+      values_.back().name = "time"; // the unit follows a parenthesis
       values_.back().tokens.push_back(token);
       return true;
     }
@@ -259,7 +259,7 @@ private:
     return "RGB " + list(join(values_[0].tokens), join(values_[1].tokens), join(values_[2].tokens));
   }
 
-  /// The value of that name; of no name the next in order.
+  /// The value of this name, or without a name the next in order.
   const Value* value(std::string_view name) const {
     const auto found = std::find_if(values_.begin(), values_.end(),
                                     [&](const Value& one) { return one.name == name; });
@@ -312,8 +312,8 @@ private:
   const Surroundings& around_;
   std::vector<std::string_view> about_; ///< topics
   std::vector<Value> values_;
-  std::vector<std::string_view> names_; ///< of the next values
-  std::string heading_;                 ///< by a word: `left`
+  std::vector<std::string_view> names_; ///< for the next values
+  std::string heading_;                 ///< from a word: `left`
   std::string subs_;                    ///< of the program
   std::optional<Token> colour_;
 };

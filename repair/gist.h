@@ -9,9 +9,9 @@
 
 namespace orb::repair {
 
-/// What a line can only mean by its words, in whatever order and grammar they stand:
-/// `setRoll(heading=90, speed=100)`, `turn the lamp blue`. The statements, the likeliest first; of
-/// two that belong together, each on a line. Nothing where a word is left over.
+/// Guesses the statements that a line can only mean by its words, in any order and grammar:
+/// `setRoll(heading=90, speed=100)`, `turn the lamp blue`. The likeliest come first; two that
+/// belong together are on separate lines. Empty if a word remains unused.
 std::vector<std::string> gist_of(const Tokens& line, const Surroundings& around);
 
 } // namespace orb::repair

@@ -12,8 +12,8 @@
 namespace orb::repair {
 namespace {
 
-// The rows lie in one text, column by column: an address of each would be as long as the table
-// again. Every compiler here takes a literal of that length.
+// The rows are stored as one text, column by column: pointers to each would double the size of the
+// table. Every supported compiler accepts a literal of this length.
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Woverlength-strings"
 constexpr char word_rows[] =
@@ -28,7 +28,7 @@ constexpr char idiom_rows[] =
     ;
 #pragma GCC diagnostic pop
 
-/// Of the rows that have one, in their order.
+/// The notes of the rows that have one, in order.
 constexpr auto notes = std::to_array<const orb::Text*>({
 #define ORB_IDIOM(where, patterns, basic, structured, macro, test, ...)                            \
   __VA_OPT__(&texts::__VA_ARGS__, )
@@ -41,7 +41,7 @@ constexpr auto hints = std::to_array<Hint>({
 #include "repair/idioms.def"
 });
 
-/// Words of another language, and what ours does instead.
+/// Foreign words and the native replacement.
 struct Whose {
   std::string_view patterns;
   std::string_view language;
@@ -73,7 +73,7 @@ std::vector<std::string_view> pieces(std::string_view text, std::string_view bet
   }
 }
 
-/// The columns of each row of a text.
+/// Splits a text into rows and columns.
 std::vector<std::vector<std::string_view>> rows_of(std::string_view text) {
   std::vector<std::vector<std::string_view>> rows;
   for (const auto row : pieces(text, "\x1e"))
@@ -140,7 +140,8 @@ std::string_view form_of(const Idiom& idiom, Language language) {
   return form == "=" ? idiom.basic : form;
 }
 
-/// The part that the fewest lines have: a word where there is one. A comma of a macro is none.
+/// The part that the fewest lines contain: a word if there is one. Optional commas of macros do not
+/// count.
 const Part* rarest_part(const Pattern& pattern) {
   const auto rank = [](const Part& part) {
     const bool sign = !is_letter(part.literals.front()[0]);
@@ -153,7 +154,7 @@ const Part* rarest_part(const Pattern& pattern) {
   return rarest;
 }
 
-/// Patterns in the order of the table, and where each of them can be found.
+/// Patterns in table order, indexed by their rarest part.
 struct Patterns {
   void index() {
     for (std::size_t i = 0; i < all.size(); ++i)
@@ -164,7 +165,7 @@ struct Patterns {
         without.push_back(i);
   }
 
-  /// Those that a line can fit: all others have a literal that it lacks.
+  /// The patterns that may match a line: all others have a literal that it does not contain.
   std::vector<std::size_t> possible(const Tokens& line) const {
     auto found = without;
     for (const auto& token : line) {
@@ -181,7 +182,7 @@ struct Patterns {
   std::vector<std::size_t> without;
 };
 
-/// The patterns that a language has an answer to.
+/// The patterns that have a form in a language.
 const Patterns& patterns_of(Language language) {
   static const auto all = [] {
     std::array<Patterns, 4> each;
@@ -198,7 +199,7 @@ const Patterns& patterns_of(Language language) {
   return all[static_cast<std::size_t>(language)];
 }
 
-/// The patterns of hints that a language has; the meaning is what fills the holes of the text.
+/// The patterns of hints for a language; the meaning fills the holes of the text.
 std::vector<std::pair<const orb::Text*, std::vector<Pattern>>> read_hints(Language language) {
   std::vector<std::pair<const orb::Text*, std::vector<Pattern>>> all;
   for (const auto& hint : hints)
@@ -211,7 +212,7 @@ std::vector<std::pair<const orb::Text*, std::vector<Pattern>>> read_hints(Langua
   return all;
 }
 
-/// The patterns of the words that a language lacks, and the row of each.
+/// The patterns of words that a language lacks, with their rows.
 struct ForeignPatterns : Patterns {
   explicit ForeignPatterns(Language language) {
     for (const auto& row : foreign)
@@ -227,11 +228,11 @@ struct ForeignPatterns : Patterns {
 
 struct Foreign {
   Span span;        ///< in the line
-  std::string word; ///< where it is one
+  std::string word; ///< if it is a single word
   Message message;
 };
 
-/// The first words of a line that belong to another language: the most of them.
+/// The first foreign words of a line; the longest match wins.
 std::optional<Foreign> find_foreign(std::string_view text, Language language,
                                     const ForeignPatterns& patterns) {
   const auto tokens = split(text, language).tokens;
@@ -267,7 +268,7 @@ std::optional<Foreign> find_foreign(std::string_view text, Language language,
                                       : texts::IsWhose(word, row.language, std::move(what))};
 }
 
-/// Whether a line sets a variable of that name, or jumps there: then it is the program's own.
+/// True if a line assigns a variable of this name or jumps to it: then it belongs to the program.
 bool is_own_word(const Source& source, std::string_view word, Language language) {
   for (std::uint32_t n = 1; !word.empty() && n <= source.line_count(); ++n) {
     const auto line = source.line(n);
@@ -282,7 +283,7 @@ bool is_own_word(const Source& source, std::string_view word, Language language)
   return false;
 }
 
-/// Whether a finding is that a line, or a word in it, means nothing.
+/// True if a finding says that a line, or a word in it, is not understood.
 bool is_unreadable(const Diagnostic& finding) {
   constexpr auto troubles = std::to_array<Trouble>(
       {Trouble::Unreadable, Trouble::UnknownName, Trouble::ForeignWord, Trouble::MalformedLine});
@@ -290,7 +291,7 @@ bool is_unreadable(const Diagnostic& finding) {
          std::find(troubles.begin(), troubles.end(), finding.rule->trouble) != troubles.end();
 }
 
-/// What fills the holes of a hint; nothing where a value has no such form.
+/// Fills the holes of a hint; nothing if a value does not have the required form.
 std::optional<std::vector<Message>> fill_each(std::string_view forms, const Holes& holes,
                                               const Surroundings& around) {
   std::vector<Message> all;
@@ -305,7 +306,7 @@ std::optional<std::vector<Message>> fill_each(std::string_view forms, const Hole
   return all;
 }
 
-/// The statements of a line: all of it, and the branches of an `if`.
+/// The statements of a line: the whole line, and the branches of an `if`.
 std::vector<std::pair<std::size_t, std::size_t>> statements_of(const Tokens& line) {
   std::vector<std::pair<std::size_t, std::size_t>> all{{0, line.size()}};
   for (std::size_t i = 0; i < line.size(); ++i)
@@ -332,7 +333,7 @@ std::string replaced(const Tokens& line, std::size_t begin, std::size_t end,
          (right && !(before.empty() && form.empty()) ? " " : "") + after;
 }
 
-/// What a call became, in parentheses where it is a sum beside an operator that binds more tightly.
+/// Adds parentheses to a rewritten call if it is a sum next to a stronger operator.
 std::string as_operand(const Tokens& line, std::size_t begin, std::size_t end, std::string form) {
   if (!line[end - 1].is(")"))
     return form;
@@ -351,7 +352,7 @@ std::string as_operand(const Tokens& line, std::size_t begin, std::size_t end, s
   return form;
 }
 
-/// Whether a form is more than a guess: a short wait may have been meant in seconds.
+/// True if a form is more than a guess: a short wait may have been meant in seconds.
 bool is_sure(std::string_view form, const Holes& holes) {
   const auto& time = holes['q'];
   if (form.find("{wait:") != std::string_view::npos && time.size() == 1 && time[0].text.size() < 3)
@@ -363,7 +364,7 @@ bool is_sure(std::string_view form, const Holes& holes) {
   return true;
 }
 
-/// Whether a form has a number that nobody wrote.
+/// True if a form has a number that was not written.
 bool invents(std::string_view form) {
   for (std::size_t at = 1; at < form.size(); ++at)
     if (is_digit(form[at]) && (form[at - 1] == ' ' || form[at - 1] == '='))
@@ -371,7 +372,7 @@ bool invents(std::string_view form) {
   return false;
 }
 
-/// Whether what a row says is about what it writes: a macro drives without `goroll`.
+/// True if the note fits the replacement: a macro drives without `goroll`.
 bool fits(const orb::Text* note, std::string_view form) {
   const bool drives = note == &texts::DrivesWithGoroll || note == &texts::RollValues ||
                       note == &texts::RollThenDelay || note == &texts::DriveOrBrake;
@@ -406,7 +407,7 @@ void rewrite(const Tokens& line, const Surroundings& around,
         return false;
       const bool whole = begin == 0 && end == line.size();
       if (!whole && filled->find('\n') != std::string::npos)
-        return false; // several lines stand by themselves
+        return false; // several lines are separate statements
       const bool inside = pattern.idiom != nullptr && pattern.idiom->where == Where::Inside;
       auto text =
           replaced(line, begin, end, inside ? as_operand(line, begin, end, *filled) : *filled);
@@ -472,14 +473,14 @@ void explore(const std::string& line, const Surroundings& around, Bounds bounds,
 
 std::string word_at(const Tokens& line, std::size_t at) {
   if (at >= line.size())
-    return {}; // `_` has no word in it
+    return {}; // `_` contains no word
   const MatchedLine all(line);
   Matcher matcher(all, line.size(), false);
   std::size_t farthest = at;
   std::string_view meaning = line[at].text;
   for (const auto& pattern : patterns_of(Language::Structured).all) {
     if (pattern.idiom != nullptr)
-      break; // the words come first
+      break; // the patterns of words come before those of idioms
     if ((pattern.first & bit_of(line[at].text)) == 0)
       continue;
     if (const auto end = matcher.match(pattern, at); end > farthest) {

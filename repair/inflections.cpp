@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t shortest_stem = 4; // letters
 
-/// Whether a word may end so behind its stem.
+/// True if the ending may follow a stem.
 bool is_ending(std::string_view end) {
   return holds("a e i o u n r s t d as es is os an en in am em er ir ar re et st te ez ed de "
                "ung ado ada ido ida ato ata ito ita are ere ire ion ons ent ant ite ate ete ando "
@@ -29,7 +29,7 @@ struct Form {
   std::string_view word;
 };
 
-/// Words by the first letters of their stems.
+/// Words indexed by the first letters of their stems.
 class Forms {
 public:
   explicit Forms(const std::vector<std::string_view>& words) {
@@ -38,7 +38,7 @@ public:
         by_stem_[letters.substr(0, shortest_stem)].push_back({std::move(letters), word});
   }
 
-  /// The word that has the most letters in common, perhaps itself; empty where none is near.
+  /// The word with the longest common prefix, perhaps itself; empty if none is close.
   std::string_view nearest(std::string_view word) const {
     const auto letters = plain_letters(word);
     const auto near = by_stem_.find(letters.substr(0, shortest_stem));

@@ -7,11 +7,12 @@
 
 namespace orb::repair {
 
-/// In small letters without accents: `Arrêter` is `arreter`.
+/// Converts to lower case without accents: `Arrêter` becomes `arreter`.
 std::string plain_letters(std::string_view word);
 
-/// The word of the tables that `word` is a form of, in any of their languages: `desvanecer` is
-/// `desvanece`, `VERZÖGERUNG` is `verzögere`, and each of them itself. Empty where none is near.
+/// The word of the tables that `word` is an inflection of, in any of their languages: `desvanecer`
+/// gives `desvanece`, `VERZÖGERUNG` gives `verzögere`. A word of the tables gives itself. Empty if
+/// none is close.
 std::string_view known_form_of(std::string_view word, Language language);
 
 } // namespace orb::repair

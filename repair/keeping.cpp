@@ -12,14 +12,14 @@
 namespace orb::repair {
 namespace {
 
-/// Whether the line gives a value to a name that other lines use.
+/// True if the line assigns a name that other lines use.
 bool sets_name(const Line& line) {
   const auto& tokens = line.tokens;
   return line.language() == Language::Structured && tokens.size() > 2 && tokens[1].is("=") &&
          line.has_name(tokens[0].text) && !line.knows(tokens[0].text);
 }
 
-/// Whether something is called with a name of the program: `len(a)`.
+/// True if a name of the program is an argument of a call: `len(a)`.
 bool calls_with_name(const Line& line) {
   const auto& tokens = line.tokens;
   for (std::size_t i = 0; i + 3 < tokens.size(); ++i)
@@ -29,8 +29,8 @@ bool calls_with_name(const Line& line) {
   return false;
 }
 
-/// Whether the operands of a command are still there: a line with numbers is not left out, and a
-/// macro that has a name is no number.
+/// True if the operands of a command are preserved: a line with numbers must not be removed, and a
+/// macro's name is not a number.
 bool keeps_operands(const Line& line, std::string_view statement) {
   const auto& tokens = line.tokens;
   if (statement.empty())
@@ -43,12 +43,12 @@ bool keeps_operands(const Line& line, std::string_view statement) {
   if ((pair || numbers > 2) &&
       (statement.starts_with("delay ") || statement.starts_with(".const ")) &&
       statement.find('\n') == std::string_view::npos)
-    return false; // what are the others for?
+    return false; // the others would be lost
   return tokens.size() != 2 || !holds("goto gosub on_collision", tokens[0].text) ||
          !tokens[1].is_word() || !is_digit(statement.back());
 }
 
-/// Whether a unit became a condition of its own: `if who = 0 people then`.
+/// True if a unit became a condition: `if who = 0 people then`.
 bool adds_condition(const Line& line, std::string_view statement) {
   if (has_token(line.tokens, "and"))
     return false;
@@ -59,8 +59,8 @@ bool adds_condition(const Line& line, std::string_view statement) {
   return false;
 }
 
-/// Whether the names of the program are still there that are the values of a statement: in a line
-/// of other words they may be words, too.
+/// True if the program's names that are values of a statement are preserved. In a line of other
+/// words they may be ordinary words.
 bool keeps_names(const Line& line, std::string_view statement) {
   if (line.tokens.empty() || !line.knows(line.tokens[0].text) || line.tokens[0].is("end"))
     return true;
@@ -81,7 +81,7 @@ bool keeps_names(const Line& line, std::string_view statement) {
   });
 }
 
-/// Whether a macro gets a number that nobody wrote: `play(true)` names none.
+/// True if a macro gets a number that was not written: `play(true)` has none.
 bool invents_macro(const Line& line, std::string_view statement) {
   constexpr std::string_view macrun = "macrun ";
   if (!statement.starts_with(macrun))
@@ -95,7 +95,7 @@ bool invents_macro(const Line& line, std::string_view statement) {
                                  [](const Token& token) { return token.is_number(); }));
 }
 
-/// Whether what is computed still is: `rnd 255` is not 255.
+/// True if computations are preserved: `rnd 255` is not 255.
 bool keeps_functions(const Line& line, std::string_view lines) {
   if (!line.is_program())
     return true;
@@ -110,7 +110,7 @@ bool keeps_functions(const Line& line, std::string_view lines) {
                      [&](std::string_view word) { return count(kept, word) >= count(said, word); });
 }
 
-/// Whether two numbers became one: `130 136` are two values that lack a comma, `10 000` is one.
+/// True if two numbers were joined: `130 136` is two values without a comma, `10 000` is one.
 bool joins_numbers(const Line& line, std::string_view lines) {
   if (!line.is_program())
     return false;
@@ -124,8 +124,8 @@ bool joins_numbers(const Line& line, std::string_view lines) {
   return false;
 }
 
-/// Whether a line that leaves something still does: without it, a loop is endless. In a `select`
-/// there is nothing to leave.
+/// True if an exit is preserved: without it, a loop is endless. In a `select` there is nothing to
+/// exit.
 bool keeps_leaving(const Line& line, std::string_view lines) {
   const auto leaving = std::find_if(line.tokens.begin(), line.tokens.end(), [](const Token& token) {
     return holds("break return continue exit", token.text);
@@ -142,7 +142,8 @@ bool keeps_leaving(const Line& line, std::string_view lines) {
   return leaves || (ends && !leaving->is("break") && !leaving->is("continue"));
 }
 
-/// What a test expects between slashes, with them: the words of another language. Empty without.
+/// The pattern between slashes that a test expects, slashes included; empty if there is none. It is
+/// in another language.
 std::string_view pattern_of(std::string_view line) {
   const auto print = line.find("print ");
   const auto first = print == std::string_view::npos ? print : line.find('/', print);
@@ -151,7 +152,7 @@ std::string_view pattern_of(std::string_view line) {
                                                           : line.substr(first, last + 1 - first);
 }
 
-/// Whether what was quoted is still there: nobody writes a text for nothing.
+/// True if quoted text is preserved.
 bool keeps_texts(const Line& line, std::string_view lines) {
   if (line.language() == Language::Test && !lines.empty() &&
       lines.find(pattern_of(line.written)) == std::string_view::npos)
@@ -182,27 +183,27 @@ bool keeps_meaning(const Line& line, std::string_view statement) {
   const auto equals = statement.find(" = ");
   const bool assigns = equals != std::string_view::npos;
   if (assigns && statement.substr(0, equals) == statement.substr(equals + 3))
-    return false; // nobody sets a variable to itself
+    return false; // an assignment to itself is pointless
   if (sets_name(line) && !assigns && !statement.starts_with("read ") &&
       !statement.starts_with("input "))
     return false;
   const auto& tokens = line.tokens;
   if (has_token(tokens, "then") && !tokens.back().is("then") && statement.ends_with(" then"))
-    return false; // what is to be done was said
+    return false; // the action would be lost
   const auto joined = std::find_if(tokens.begin(), tokens.end(),
                                    [](const Token& token) { return token.is("and"); });
   const bool asks_twice = !tokens.empty() && holds("if elseif while until", tokens[0].text) &&
                           statement.starts_with(tokens[0].text) && tokens.end() - joined > 3;
   if (asks_twice && !has_token(tokens_of(statement, line.language()), "and"))
-    return false; // half of what is asked for
+    return false; // half of the statement would be lost
   if (statement.starts_with("print \"") && calls_with_name(line))
-    return false; // no text
+    return false; // not a text
   if (statement.find("\ncase ") != std::string_view::npos)
-    return false; // a case without lines of its own
+    return false; // a case without lines
   const bool one_word = tokens.size() == 1 && line.is_foreign(tokens[0].text);
   if (line.language() == Language::Structured && statement == "print" && one_word &&
       !equal_words(tokens[0].text, "say"))
-    return false; // of what?
+    return false; // the operand is unknown
   if (line.language() == Language::Macro && !keeps_operands(line, statement))
     return false;
   if (line.language() == Language::Test && statement.starts_with("expect ") &&

@@ -8,10 +8,10 @@
 #include <string_view>
 #include <vector>
 
-// Slips of the hand: the key beside, the same key without its shift, a key that was not hit.
+// Typing errors: an adjacent key, a missing shift, a missing character.
 
 namespace orb::repair {
-/// `H.120` and `goroll T * 10.60,1`: a point for the comma beside it.
+/// `H.120` and `goroll T * 10.60,1`: a point for the adjacent comma.
 void comma_for_point(Line& line) {
   auto& tokens = line.tokens;
   if (tokens.size() < 3)
@@ -44,7 +44,7 @@ void comma_for_point(Line& line) {
 
 namespace {
 
-/// The sign that a statement lacks which begins at `at`: `C 0 C + 1`, `W + W / 2`, `N = N 1`.
+/// Adds the missing sign of a statement that begins at `at`: `C 0 C + 1`, `W + W / 2`, `N = N 1`.
 void missed_sign(Line& line, std::size_t at) {
   auto& tokens = line.tokens;
   if (at + 2 >= tokens.size() || !line.is_variable(tokens[at]))
@@ -74,7 +74,7 @@ void missed_sign(Line& line, std::size_t at) {
 
 } // namespace
 
-/// `nex tB`, and `wait_for shake` in a program with `wait_for_shake`: a blank in the wrong place.
+/// Moves a misplaced space: `nex tB`, and `wait_for shake` in a program with `wait_for_shake`.
 void join_words(Line& line) {
   auto& tokens = line.tokens;
   if (tokens.size() < 2)
@@ -94,7 +94,7 @@ void join_words(Line& line) {
   }
 }
 
-/// The signs that the statements of a line lack.
+/// Adds the missing signs of all statements of a line.
 void missed_signs(Line& line) {
   const auto& tokens = line.tokens;
   for (std::size_t at = 0; at < tokens.size(); ++at)
@@ -102,7 +102,7 @@ void missed_signs(Line& line) {
       missed_sign(line, at);
 }
 
-/// `PP = W`: a variable whose key was hit twice.
+/// `PP = W`: a variable typed twice.
 void single_letters(Line& line) {
   auto& tokens = line.tokens;
   for (std::size_t i = 0; i < tokens.size(); ++i) {
@@ -119,8 +119,8 @@ constexpr auto glued = std::to_array<std::string_view>(
     {"goto", "gosub", "print", "return", "input", "then", "else", "next", "read", "step", "data",
      "for", "let", "rnd", "and", "if", "or", "to"});
 
-/// `THENLETT` in its parts: keywords, and at the end a letter, a number or a known word. Empty
-/// where it has none.
+/// Splits `THENLETT` into keywords and a final letter, number or known word. Empty if it does not
+/// split.
 std::vector<std::string> parts_of_glued(std::string_view word,
                                         const std::vector<std::string_view>& words) {
   for (const auto keyword : glued) {
@@ -140,7 +140,7 @@ std::vector<std::string> parts_of_glued(std::string_view word,
 
 } // namespace
 
-/// `GOTO150` becomes `goto 150`, and `THENLETT` `then let T`.
+/// Splits `GOTO150` into `goto 150`, and `THENLETT` into `then let T`.
 void part_glued(Line& line) {
   auto& tokens = line.tokens;
   for (std::size_t i = 0; i < tokens.size(); ++i) {

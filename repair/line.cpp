@@ -9,7 +9,7 @@ namespace orb::repair {
 
 namespace {
 
-/// A head with blanks in the place of what only looks like one.
+/// Replaces characters that only look like spaces by spaces.
 std::string with_blanks(std::string_view head) {
   std::string plain;
   for (const char c : head)

@@ -15,23 +15,23 @@
 
 namespace orb::repair {
 
-/// One place of a pattern.
+/// One element of a pattern.
 struct Part {
   char hole = '\0';
-  std::vector<std::string> literals; ///< one of these, where it is no hole
+  std::vector<std::string> literals; ///< alternatives, unless it is a hole
   bool may_lack = false;             ///< a comma of a macro
 };
 
-/// What people write, in the parts of one pattern.
+/// One pattern in its parts.
 struct Pattern {
   std::vector<Part> parts;
-  std::vector<std::uint64_t> needs; ///< a line without a bit of each of these cannot fit
-  std::uint64_t first = 0;          ///< the bits of what it begins with; 0 for a hole
+  std::vector<std::uint64_t> needs; ///< a matching line has a bit of each of these
+  std::uint64_t first = 0;          ///< the bits of the first part; 0 for a hole
   const Idiom* idiom = nullptr;
-  std::string_view meaning; ///< of a word
+  std::string_view meaning; ///< for a word
 };
 
-/// Words that part a line, and so are in no value.
+/// Words that separate parts of a line and so never occur in a value.
 inline bool parts_line(const Token& token) {
   constexpr auto parting = std::to_array<std::string_view>(
       {"then", "else", "to", "step", "and", "or", "if", "goto", "gosub", "do"});
@@ -40,7 +40,7 @@ inline bool parts_line(const Token& token) {
          });
 }
 
-/// What all patterns ask of the tokens of a line, told once.
+/// Facts about the tokens of a line, computed once for all patterns.
 struct MatchedLine {
   explicit MatchedLine(const Tokens& given) : tokens(given), depth{0} {
     for (const auto& token : tokens) {
@@ -55,19 +55,19 @@ struct MatchedLine {
   }
 
   const Tokens& tokens;
-  std::vector<int> depth;  ///< of brackets, before each token and after the last one
-  std::vector<bool> parts; ///< as parts_line() says
+  std::vector<int> depth;  ///< bracket depth before each token and after the last one
+  std::vector<bool> parts; ///< as in parts_line()
   std::vector<bool> ends_value;
   std::vector<bool> ends_condition;
 };
 
-/// Lays a pattern over the tokens of a line.
+/// Matches a pattern against the tokens of a line.
 class Matcher {
 public:
   Matcher(const MatchedLine& line, std::size_t end, bool whole)
       : line_(line), tokens_(line.tokens), end_(end), whole_(whole) {}
 
-  /// Where the pattern ends that begins at `at`; 0 where it does not fit.
+  /// The end of a match that begins at `at`; 0 if there is none.
   std::size_t match(const Pattern& pattern, std::size_t at) {
     spans_.clear();
     choice_ = {};
@@ -75,7 +75,7 @@ public:
     return from(pattern, 0, at);
   }
 
-  /// What the holes of the last match hold.
+  /// The contents of the holes of the last match.
   Holes holes() const {
     Holes holes;
     for (const auto& [hole, begin, end] : spans_)
@@ -90,7 +90,7 @@ public:
 private:
   static constexpr int most_steps = 1000;
 
-  struct Held {
+  struct HoleSpan {
     char hole = '\0';
     std::size_t begin = 0;
     std::size_t end = 0;
@@ -134,12 +134,13 @@ private:
     if (found == literals.end())
       return 0;
     const auto stop = from(pattern, part + 1, at + 1);
-    if (stop != 0 && literals.size() > 1) // the first one is found last
+    if (stop != 0 && literals.size() > 1) // the first literal is found last
       choice_ = {'\0', at, stop};
     return stop;
   }
 
-  /// How far a hole can go: not past what closes more than it opens, nor what ends its kind.
+  /// The maximum end of a hole: before an unbalanced closing bracket and before the end of its
+  /// kind.
   std::size_t extent(char hole, std::size_t at) const {
     if (is_among("nmwtk", hole))
       return std::min(end_, at + 1);
@@ -156,12 +157,12 @@ private:
     return holes.find(hole) != std::string_view::npos;
   }
 
-  /// `step()`: what people call a sub or a macro, too.
+  /// True for `step()`, a common name of a sub or a macro.
   bool is_called_step(std::size_t at) const {
     return at == 0 && tokens_.size() > 2 && tokens_[0].is("step") && tokens_[1].is("(");
   }
 
-  /// Within extent().
+  /// Requires a range within extent().
   bool balanced(std::size_t begin, std::size_t end) const {
     return line_.depth[begin] == line_.depth[end];
   }
@@ -175,8 +176,8 @@ private:
            (tokens_[end - 1].is(")") || tokens_[end - 1].is("]"));
   }
 
-  /// A value, within extent(): neither commas nor comparisons outside of its parentheses, no two
-  /// values side by side.
+  /// True for a value within extent(): no commas or comparisons outside parentheses, and no two
+  /// adjacent values.
   bool is_value(std::size_t begin, std::size_t end) const {
     int depth = 0;
     for (auto i = begin; i < end; ++i) {
@@ -193,7 +194,7 @@ private:
     return last.kind != Token::Kind::Sign || last.is(")") || last.is("]");
   }
 
-  /// Whether a hole can hold what lies within its extent().
+  /// True if a hole can hold this range within its extent().
   bool fits(char hole, std::size_t begin, std::size_t end) const {
     if (hole == 'r')
       return true;
@@ -213,14 +214,14 @@ private:
     case 'c':
     case 'd':
     case 'l': return true;
-    case 'j': // one word is a label
+    case 'j': // a single word is a label
       return end > begin + 1 && !line_.parts[begin] && !first.is("for") && !first.is("while") &&
              !first.is("}");
     default: return is_value(begin, end);
     }
   }
 
-  /// A number with a unit, or with a decimal comma.
+  /// True for a number with a unit, or with a decimal comma.
   bool is_time(std::size_t begin, std::size_t end) const {
     if (!tokens_[begin].is_number())
       return false;
@@ -234,8 +235,8 @@ private:
   const Tokens& tokens_;
   std::size_t end_;
   bool whole_;
-  std::vector<Held> spans_;
-  Held choice_;
+  std::vector<HoleSpan> spans_;
+  HoleSpan choice_;
   int steps_ = 0;
 };
 

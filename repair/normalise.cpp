@@ -13,7 +13,7 @@ using in::structured;
 using in::test;
 
 // clang-format off
-// The order matters: what is quoted is read before words, glued words before known ones.
+// The order matters: quotes are resolved before words, joined words before known ones.
 constexpr auto table = std::to_array<Rewrite>({
     {all, close_block, "10 ]", "10 }"},
     {all, close_text, R"(10 print "hello')", R"(10 print "hello")"},

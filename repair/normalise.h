@@ -11,8 +11,8 @@
 
 namespace orb::repair {
 
-/// One way to read a line: it changes the tokens, and says in `incomplete` where it put in what
-/// nobody typed.
+/// A rewrite of a line: changes the tokens, and sets `incomplete` if it adds something that was not
+/// typed.
 struct Rewrite {
   std::uint8_t languages; ///< a bit for each Language
   void (*apply)(Line&);
@@ -20,13 +20,13 @@ struct Rewrite {
   std::string_view after;
 };
 
-/// All rewrites, in the order in which a line goes through them.
+/// All rewrites, in the order of application.
 std::span<const Rewrite> rewrites();
 
-/// Reads a line as its language would write it: spellings, signs, labels, quotes.
+/// Rewrites a line towards the notation of its language: spellings, signs, labels, quotes.
 void normalise(Line& line);
 
-/// Whether a word is one letter away from one of the language.
+/// True if a word is one letter away from a word of the language.
 bool is_misspelt(const Line& line, std::string_view word);
 
 // keys.cpp

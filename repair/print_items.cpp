@@ -8,7 +8,7 @@
 namespace orb::repair {
 namespace {
 
-/// Text with `{name}` in it, as items of `print`.
+/// Converts text with `{name}` into items of `print`.
 std::string parts_of(std::string_view text, std::string_view open, std::string_view close) {
   std::string items;
   while (!text.empty()) {
@@ -26,7 +26,7 @@ std::string parts_of(std::string_view text, std::string_view open, std::string_v
   return items.empty() ? "\"\"" : items;
 }
 
-/// `"%d left\n", n`: a format with its values.
+/// Converts a format with its values: `"%d left\n", n`.
 std::optional<std::string> formatted(const Tokens& tokens) {
   auto text = tokens[0].text;
   while (text.ends_with("\\n"))
@@ -81,7 +81,7 @@ std::optional<std::string> print_items(const Tokens& tokens) {
   bool apart = true;
   const bool has_text =
       std::any_of(tokens.begin(), tokens.end(), [](const Token& token) { return token.is_text(); });
-  bool said = false; // a text, which makes each `+` behind it join texts
+  bool said = false; // seen a text: from here on `+` joins texts
   const auto beside_text = [&](std::size_t i) {
     return (i > 0 && tokens[i - 1].is_text()) ||
            (i + 1 < tokens.size() && tokens[i + 1].is_text()) ||
@@ -161,7 +161,7 @@ std::optional<std::string> print_using(const Tokens& format, const Tokens& value
   for (const auto& item : items) {
     const auto from = rest.find('#');
     if (from == std::string_view::npos || item.empty())
-      return std::nullopt; // another number of fields
+      return std::nullopt; // the number of fields differs
     if (from > 0)
       add(fmt::format("\"{}\"", rest.substr(0, from)));
     add(join(item));
@@ -177,7 +177,7 @@ std::optional<std::string> print_using(const Tokens& format, const Tokens& value
 std::optional<std::string> quoted(const Tokens& tokens) {
   std::string text;
   constexpr std::string_view plain = ".!?:,()-/&";
-  const auto is_value = [](const Token& token) { // `A` and `x`; `a` and `I` are said, too
+  const auto is_value = [](const Token& token) { // `A` and `x`; `a` and `I` are also words
     return token.is_word() && token.text.size() == 1 && !token.is("a") && !token.is("I");
   };
   if (std::any_of(tokens.begin(), tokens.end(), is_value) ||

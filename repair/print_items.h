@@ -9,14 +9,14 @@
 
 namespace orb::repair {
 
-/// `"### is missing"` with the value in the place of its signs.
+/// Puts the value in place of the signs of `"### is missing"`.
 std::optional<std::string> print_using(const Tokens& format, const Tokens& values);
 
-/// What other languages print, as a list for `print`: texts side by side, without `+`, `str()` and
-/// formats.
+/// Converts print arguments of other languages to a list for `print`: adjacent texts, without `+`,
+/// `str()` and formats.
 std::optional<std::string> print_items(const Tokens& tokens);
 
-/// Words that stand without quotes, as a text.
+/// Quotes unquoted words as a text.
 std::optional<std::string> quoted(const Tokens& tokens);
 
 } // namespace orb::repair

@@ -36,35 +36,35 @@ struct Program {
   std::vector<SplitLine> lines; ///< line 1 first
 };
 
-/// A change of the whole program, told on one of its lines.
+/// A change of the whole program, reported on one of its lines.
 struct Proposal {
   std::uint32_t line = 0;
   Fix fix;
-  Message help = {};    ///< empty: the line as it will be
-  Message message = {}; ///< empty: what was said of it already
-  Span span = {};       ///< of what that says
-  bool last = false;    ///< only where nothing else is offered: it may be a misspelt word as well
+  Message help = {};    ///< empty: the resulting line
+  Message message = {}; ///< empty: keep the finding's message
+  Span span = {};       ///< of the message
+  bool last = false;    ///< only if nothing else is proposed: it may also be a misspelt word
 };
 using Proposals = std::vector<Proposal>;
 
-// ---- names of several letters
+// ---- multi-letter names
 
-/// Where a line sets a name, and where what declares it begins.
-struct Place {
+/// Where a line assigns a name, and where its declaration begins.
+struct Assigned {
   std::size_t begin;
   std::size_t name;
 };
 
-/// Names before `=`, after `for`, `read` and `input`.
-std::vector<Place> places_set(const Tokens& line) {
+/// Finds names before `=`, after `for`, `read` and `input`.
+std::vector<Assigned> places_set(const Tokens& line) {
   constexpr std::string_view declaring = "int var long byte float double integer number auto "
                                          "static global const final dim set let";
-  std::vector<Place> found;
+  std::vector<Assigned> found;
   for (std::size_t i = 0; i < line.size(); ++i) {
     const bool begins = i == 0 || line[i - 1].is("then") || line[i - 1].is("else");
     const bool declared =
         begins && i + 1 < line.size() && line[i + 1].is_word() && holds(declaring, line[i].text);
-    const Place place{i, declared ? i + 1 : i};
+    const Assigned place{i, declared ? i + 1 : i};
     const bool taken = (i == 1 && holds("for read input", line[0].text)) ||
                        (i > 1 && line[0].is("read") && line[i - 1].is(","));
     const auto value = place.name + 2;
@@ -77,7 +77,7 @@ std::vector<Place> places_set(const Tokens& line) {
   return found;
 }
 
-/// Whether a word of a line names a variable: no word of the language, nor a timer without its
+/// True if a word of a line is a variable: not a word of the language nor a timer without its
 /// letter, unless a line counts with it. A sensor that other lines read may be one.
 bool is_name(const Program& program, std::string_view word, std::uint32_t line) {
   const auto stands = [&](std::size_t times, std::uint32_t but) {
@@ -102,7 +102,7 @@ bool is_name(const Program& program, std::string_view word, std::uint32_t line) 
                 : !has_word(program.dialect.words, word);
 }
 
-/// The first letter of a name where nobody has it, else another free one; never Y and Z.
+/// The first letter of a name if it is free, else another free one; never Y or Z.
 char take_letter(std::set<char>& used, std::string_view name) {
   for (const char c : std::string(1, to_upper(name[0])) + "ABCDEFGHIJKLMNOPQRSTUVWX")
     if (c >= 'A' && c < 'Y' && used.insert(c).second)
@@ -110,7 +110,7 @@ char take_letter(std::set<char>& used, std::string_view name) {
   return '\0';
 }
 
-/// A free letter for each name, at the first line that sets it.
+/// Proposes a free letter for each name, at the first line that assigns it.
 Proposals letters_for_names(const Program& program) {
   std::set<char> used;
   for (const auto& line : program.lines)
@@ -142,7 +142,7 @@ Proposals letters_for_names(const Program& program) {
         continue;
       const auto [made, letter] = name->second;
       const auto place =
-          std::find_if(set.begin(), set.end(), [i](const Place& one) { return one.name == i; });
+          std::find_if(set.begin(), set.end(), [i](const Assigned& one) { return one.name == i; });
       const auto& first = place == set.end() ? tokens[i] : tokens[place->begin];
       all[made].fix.edits.push_back({program.span(n, first, tokens[i]), std::string(1, letter)});
     }
@@ -154,7 +154,7 @@ Proposals letters_for_names(const Program& program) {
 
 // ---- labels
 
-/// What stands behind `goto` and `gosub` and is no number.
+/// An operand of `goto` or `gosub` that is not a number.
 struct NamedJump {
   std::uint32_t line;
   const Token* name;
@@ -176,7 +176,7 @@ std::vector<NamedJump> named_jumps(const Program& program) {
   return found;
 }
 
-/// The numbers of lines for their labels; a label that nothing jumps to becomes a comment.
+/// Replaces labels by line numbers; a label without a jump becomes a comment.
 Proposals numbers_for_labels(const Program& program) {
   Proposals all;
   const auto jumps = named_jumps(program);
@@ -202,7 +202,7 @@ Proposals numbers_for_labels(const Program& program) {
                                                                       0, word.size())); // `NEXTI:`
                                        }));
     if (!named && own.empty())
-      continue; // it takes a number first, whatever it is
+      continue; // it needs a number first
     const auto label = program.span(n, tokens[0], tokens[1]);
     made.message = texts::NoLabels(program.source.text(label));
     made.span = label;
@@ -216,7 +216,7 @@ Proposals numbers_for_labels(const Program& program) {
     } else if (!below.empty()) {
       made.fix.edits.push_back({{program.source.line_start(n), label.end}, ""});
       made.help = texts::RemoveLineAndJump(target);
-    } else { // what jumps there ends
+    } else { // a jump to it ends the program
       made.fix.edits.push_back({label, "end"});
     }
     std::sort(made.fix.edits.begin(), made.fix.edits.end(),
@@ -227,11 +227,11 @@ Proposals numbers_for_labels(const Program& program) {
   return all;
 }
 
-/// The number of the only subroutine that nothing calls: it stands below what does not go on there,
-/// and ends with `return`. Empty where there is none, or another one.
+/// The number of the only uncalled subroutine: it follows a line that does not fall through, and
+/// ends with `return`. Empty unless there is exactly one.
 std::string only_subroutine(const Program& program) {
   std::string only;
-  std::string begin; // of what may be one
+  std::string begin; // of a possible subroutine
   bool falls = true;
   for (std::uint32_t n = 1; n <= program.lines.size(); ++n) {
     const auto& tokens = program.tokens(n);
@@ -248,7 +248,7 @@ std::string only_subroutine(const Program& program) {
   return only;
 }
 
-/// Jumps to what a comment is called, and `gosub flash`, where nothing else can be called.
+/// Resolves jumps to the text of a comment, and `gosub flash` if there is only one possible target.
 Proposals numbers_for_jumps(const Program& program, const Proposals& labels) {
   Proposals all;
   const auto only = only_subroutine(program);
@@ -272,7 +272,8 @@ Proposals numbers_for_jumps(const Program& program, const Proposals& labels) {
 
 // ---- several lines in one
 
-/// `10 LEDC 1 20 LEDC 2`: the lines, each with its end but the last; empty where it is one.
+/// Splits `10 LEDC 1 20 LEDC 2` into lines, each but the last with its line ending; empty if it is
+/// one line.
 std::string lines_in_one(const Program& program, std::uint32_t line) {
   const auto text = program.source.line(line);
   const auto below = parse_number<std::uint32_t>(program.scenery.number_below(line));
@@ -296,10 +297,10 @@ std::string lines_in_one(const Program& program, std::uint32_t line) {
   return lines.empty() || !is_line(rest) ? std::string() : lines + std::string(rest);
 }
 
-// ---- all of it
+// ---- applying the proposals
 
-/// A fix as it is in a text whose lines are as many; nothing where it touches one that is not the
-/// same.
+/// Translates a fix to a text with the same number of lines; nothing if it touches a line that
+/// differs.
 std::optional<Fix> moved(Fix fix, const Source& from, const Source& to) {
   for (auto& edit : fix.edits) {
     const auto first = from.position(edit.span.begin).line;
@@ -313,7 +314,7 @@ std::optional<Fix> moved(Fix fix, const Source& from, const Source& to) {
   return fix;
 }
 
-/// `10 LEDC 1 : delay 500`: the same; each statement takes a number that nothing jumps to.
+/// Splits `10 LEDC 1 : delay 500` in the same way; each statement gets a number that no jump uses.
 std::string statements_in_one(const Program& program, std::uint32_t line) {
   const auto text = program.source.line(line);
   const auto& tokens = program.tokens(line);
@@ -333,7 +334,7 @@ std::string statements_in_one(const Program& program, std::uint32_t line) {
   for (std::size_t i = 1; i <= tokens.size(); ++i) {
     if (i < tokens.size() && !tokens[i].is(":"))
       continue;
-    const auto end = i < tokens.size() ? tokens[i].at : text.size(); // with the comment
+    const auto end = i < tokens.size() ? tokens[i].at : text.size(); // including the comment
     const auto one = fmt::format("{} {}", next, trim(text.substr(from, end - from)));
     if (!program.dialect.parses(one) ||
         (next != number && !program.scenery.jumps_to(std::to_string(next)).empty()))
@@ -346,7 +347,7 @@ std::string statements_in_one(const Program& program, std::uint32_t line) {
   return lines;
 }
 
-/// Lines of their own for what stands in one.
+/// Splits lines with several statements.
 void part_lines(const Program& program, std::vector<Diagnostic>& findings) {
   for (auto& finding : findings) {
     const auto line = program.source.position(finding.span.begin).line;
@@ -366,13 +367,13 @@ void part_lines(const Program& program, std::vector<Diagnostic>& findings) {
   }
 }
 
-/// The line that an error is about; 0 where it is about its number.
+/// The line of an error; 0 if the error is in its number.
 std::uint32_t line_of(const Program& program, const Diagnostic& finding) {
   const auto [line, column] = program.source.position(finding.span.begin);
   return is_error(finding) && column > program.lines[line - 1].head.size() ? line : 0;
 }
 
-/// Tells a finding what a proposal says of its line: it will be `line`, and `place` changes.
+/// Adds a proposal to a finding: its line becomes `line`, with the change at `place`.
 void tell(Diagnostic& finding, const Proposal& made, std::string_view line, const Edit& place,
           const Source& source) {
   const bool names = made.fix.title.is(texts::CallItEverywhere);
@@ -395,7 +396,7 @@ void tell(Diagnostic& finding, const Proposal& made, std::string_view line, cons
     finding.fix->title = finding.help;
 }
 
-/// Tells the findings of a program what the findings say of it as it will be.
+/// Copies findings about the changed program to the findings of the original.
 void take_over(const Program& program, const Proposals& all, const Program& then,
                const std::vector<Diagnostic>& after, std::vector<Diagnostic>& findings) {
   std::set<std::uint32_t> told{0};
@@ -433,7 +434,7 @@ void take_over(const Program& program, const Proposals& all, const Program& then
       finding.help = other->help;
     for (std::size_t i = 0; finding.fix && i < finding.fix->edits.size(); ++i)
       if (auto& edit = finding.fix->edits[i]; edit.text.empty() && edit.span == span)
-        edit.span.end = program.source.line_start(n + 1); // an empty line is none
+        edit.span.end = program.source.line_start(n + 1); // remove an empty line completely
   }
 }
 

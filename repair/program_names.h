@@ -4,10 +4,9 @@
 
 namespace orb::repair {
 
-/// Like offer_lines(), for a numbered program: what takes all of its lines is mended first. Names
-/// of several letters become free letters, labels the numbers of their lines, and statements with
-/// numbers of their own lines of their own; the other lines are looked at in the program that this
-/// makes.
+/// Like offer_lines(), for a numbered program, but first applies changes to the whole program:
+/// multi-letter names become free letters, labels become line numbers, and several statements on a
+/// line become separate lines. The other lines are repaired in the program that results.
 void offer_program(std::string_view text, const Dialect& dialect,
                    std::vector<Diagnostic>& findings);
 

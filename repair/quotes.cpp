@@ -9,7 +9,7 @@
 namespace orb::repair {
 namespace {
 
-/// A statement with a quote more or less than it has, and how unlikely the place is.
+/// A statement with one quote added or removed, and a cost for its position.
 struct Requoted {
   std::string text;
   int cost;
@@ -18,9 +18,9 @@ struct Requoted {
 constexpr int name_in_text = 2;
 constexpr int odd_place = 3;
 
-/// `text` with one quote more, wherever one may stand.
+/// Adds variants of `text` with one more quote, at every possible position.
 void put_in_quote(const std::string& text, std::vector<Requoted>& all) {
-  bool closes = false; // an odd number of quotes stands before
+  bool closes = false; // inside a text: an odd number of quotes precedes
   for (std::size_t at = 0; at <= text.size(); ++at) {
     const bool end = at == text.size();
     const bool sign = !end && std::string_view(",;+").find(text[at]) != std::string_view::npos;
@@ -38,7 +38,7 @@ void put_in_quote(const std::string& text, std::vector<Requoted>& all) {
   }
 }
 
-/// `text` with a quote for a 2, which is on the same key.
+/// Adds variants of `text` with a quote for a 2, which is on the same key.
 void quote_for_two(const std::string& text, std::vector<Requoted>& all) {
   for (std::size_t at = 1; at < text.size(); ++at) {
     const char before = text[at - 1];
@@ -51,8 +51,8 @@ void quote_for_two(const std::string& text, std::vector<Requoted>& all) {
   }
 }
 
-/// How unlikely a statement is by its texts: names of the program in them say that they end
-/// elsewhere. Nothing where an unknown word stands outside of them, or one is empty.
+/// The cost of a statement by its texts: names of the program inside them suggest that they end
+/// elsewhere. Nothing if an unknown word is outside of them, or one is empty.
 std::optional<int> cost_of_texts(const Line& line, std::string_view statement) {
   const auto is_value = [&](const Token& token) {
     const bool letter = token.text.size() == 1;

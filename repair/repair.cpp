@@ -2,7 +2,7 @@
 
 #include "base/fixes.h"
 #include "base/text/text.h"
-#include "repair/blocks.h"
+#include "repair/block_shapes.h"
 #include "repair/fill.h"
 #include "repair/normalise.h"
 #include "repair/safety.h"
@@ -24,7 +24,7 @@ constexpr std::size_t most_lines = 12;    // with errors; nobody reads more at o
 constexpr int most_checks = 16;           // of the whole text, for one line
 constexpr int most_checks_together = 96;  // for all lines
 
-/// The change from one line to another, as small as it is.
+/// The smallest edit that turns one line into another.
 Edit difference(std::string_view from, std::string_view to, std::uint32_t begin) {
   std::size_t left = 0;
   while (left < from.size() && left < to.size() && from[left] == to[left])
@@ -38,7 +38,7 @@ Edit difference(std::string_view from, std::string_view to, std::uint32_t begin)
           std::string(to.substr(left, to.size() - left - right))};
 }
 
-/// A name that is nowhere defined because its definition is misspelt: the definition is mended.
+/// Repairs the misspelt definition of an undefined name.
 bool mend_definition(const Source& source, const Dialect& dialect, const Scenery& scenery,
                      const std::vector<Diagnostic>& before, Diagnostic& finding) {
   const auto word = source.text(finding.span);
@@ -72,7 +72,7 @@ bool mend_definition(const Source& source, const Dialect& dialect, const Scenery
   return false;
 }
 
-/// Whether a line that becomes several parses then.
+/// True if a line that becomes several parses then.
 bool parses_after(const Edit& edit, std::string_view line, Span span, const Dialect& dialect) {
   std::string text(line);
   text.replace(edit.span.begin - span.begin, edit.span.size(), edit.text);
@@ -89,7 +89,7 @@ bool is_one_of(const Diagnostic& finding, std::initializer_list<Trouble> trouble
   return std::find(troubles.begin(), troubles.end(), finding.rule->trouble) != troubles.end();
 }
 
-/// Whether a line does not parse, or has a word that means nothing.
+/// True if a line does not parse, or contains an unknown word.
 bool is_malformed(const Diagnostic& finding, std::string_view line, const Dialect& dialect) {
   if (finding.rule->trouble == Trouble::Pattern)
     return false;
@@ -100,8 +100,8 @@ bool is_malformed(const Diagnostic& finding, std::string_view line, const Dialec
                              Trouble::ForeignWord, Trouble::ReservedName, Trouble::MalformedLine});
 }
 
-/// Whether a finding is about how its line is written: a line that parses is only looked at where a
-/// word in it means nothing, and a fix of several lines knows better.
+/// True if a finding concerns the notation of its line. A line that parses is repaired only if it
+/// has an unknown word; a fix over several lines takes precedence.
 bool is_about_writing(const Diagnostic& finding, const Source& source, const Dialect& dialect,
                       std::uint32_t line) {
   const auto text = source.line(line);
@@ -112,7 +112,7 @@ bool is_about_writing(const Diagnostic& finding, const Source& source, const Dia
           (edit.text.find('\n') != std::string::npos && parses_after(edit, text, span, dialect)))
         return false;
   if (finding.span.end > span.end)
-    return false; // it goes on below
+    return false; // it continues below
   return is_malformed(finding, text, dialect);
 }
 
@@ -125,25 +125,25 @@ bool is_safe(const Diagnostic& finding) {
   return finding.fix && finding.fix->safety == Safety::Safe;
 }
 
-/// Whether a finding only says that the line does not parse.
+/// True if a finding only says that the line does not parse.
 bool says_little(const Diagnostic& finding) {
   return !finding.fix && is_one_of(finding, {Trouble::Unreadable, Trouble::UnknownName,
                                              Trouble::ForeignWord, Trouble::MalformedLine});
 }
 
-/// Whether a help is the line to write.
+/// True if a help gives a replacement line.
 bool says_line(const Message& help) {
   return help.is(texts::Write) || help.is(texts::WriteBecause) || help.is(texts::WriteEither) ||
          help.is(texts::WriteTwo) || help.is(texts::WriteThree);
 }
 
-/// Whether a fix only leaves something out or puts something in, which a whole line does, too.
+/// True if a fix only deletes or inserts text, which a replacement line covers too.
 bool is_piecemeal(const Fix& fix) {
   return std::all_of(fix.edits.begin(), fix.edits.end(),
                      [](const Edit& edit) { return edit.text.empty() || edit.span.size() == 0; });
 }
 
-/// Whether a line goes on in the next one, or seems to: an operator or a bracket is left open.
+/// True if a line seems to continue on the next one: an operator or a bracket is open.
 bool goes_on(std::string_view line) {
   int depth = 0;
   const auto tokens = split(line.substr(0, longest_line), Language::Structured).tokens;
@@ -154,7 +154,8 @@ bool goes_on(std::string_view line) {
           !tokens.back().is("]") && !tokens.back().is("{") && !tokens.back().is(";"));
 }
 
-/// Offers lines for the findings of one text.
+/// Proposes lines for the findings of one text. Large because each repair of several lines has its
+/// own member, and each must know what the others have already repaired.
 class Offers {
 public:
   Offers(std::string_view text, const Dialect& dialect, std::vector<Diagnostic>& findings)
@@ -169,7 +170,7 @@ public:
         close_block(finding);
         open_block(finding);
       }
-    // From the last line up: what ends a block is mended before what begins it is judged.
+    // Work upwards: the end of a block is repaired before its start is judged.
     std::vector<Diagnostic*> first;
     for (auto& finding : findings_)
       if (keeps_from_building(finding) && finding.span.begin <= source_.text().size() &&
@@ -181,7 +182,7 @@ public:
     for (auto* finding : first)
       offer(*finding);
     if (dialect_.language == Language::Test)
-      take_back({first.rbegin(), first.rend()}); // what `prints` lists, from its first text on
+      take_back({first.rbegin(), first.rend()}); // a list below `prints`, from its first text on
     if (dialect_.language == Language::Structured) {
       take_back(first);
       offer_again(first);
@@ -193,7 +194,7 @@ public:
   }
 
 private:
-  /// Whether what is written in the place of a line differs from it in its notation alone.
+  /// True if a replacement differs from its line only in notation.
   bool says_the_same(std::string_view line, std::string_view written) const {
     return repair::says_the_same(
         line, written,
@@ -201,7 +202,7 @@ private:
          [this](std::string_view label) { return scenery_.number_of(label); }});
   }
 
-  /// A fix of the language itself that writes another line is for people to take.
+  /// Marks a safe fix of the language itself as unsafe if it changes more than notation.
   void hold(Diagnostic& finding) const {
     const auto at = line_of(finding);
     std::string line(source_.line(at));
@@ -209,14 +210,14 @@ private:
         !is_malformed(finding, line, dialect_))
       return;
     if (dialect_.language == Language::Structured && finding.rule->trouble == Trouble::ForeignWord)
-      return; // the parser read it as the word that is written: the program is the same
+      return; // the parser already reads it as the new word: the program is the same
     const auto span = source_.line_span(at);
     const auto& edits = finding.fix->edits;
     const auto parts = split(line, dialect_.language);
     const bool numbers = edits.back().span.end <= span.begin + parts.head.size() &&
                          !parts.tokens.empty() && parts.tokens[0].is_word();
     if (edits.front().span.begin < span.begin || edits.back().span.end > span.end || numbers)
-      return; // of several lines, or a number for the line
+      return; // over several lines, or a number for the line
     for (auto edit = edits.rbegin(); edit != edits.rend(); ++edit)
       line.replace(edit->span.begin - span.begin, edit->span.size(), edit->text);
     if (!says_the_same(source_.line(at), line))
@@ -229,7 +230,7 @@ private:
 
   int checks_left() const { return std::min(most_checks, most_checks_together - checks_); }
 
-  /// Blocks of several lines, each with one fix at all of its findings.
+  /// Repairs blocks over several lines, with the same fix on all of their findings.
   void blocks() {
     for (const auto& block : blocks_as_jumps(source_, scenery_, dialect_.parses)) {
       Fix fix{texts::ReplaceBlock(), block.edits, Safety::Safe};
@@ -250,7 +251,7 @@ private:
     }
   }
 
-  /// Whether a finding is the first of a line that another could be written for.
+  /// True if a finding is the first of a line that may be replaced.
   bool is_to_mend(const Diagnostic& finding) {
     const auto line = line_of(finding);
     return !source_.line(line).empty() && source_.line(line).size() <= longest_line &&
@@ -258,12 +259,12 @@ private:
            lines_.insert(line).second;
   }
 
-  /// Whether a line seems to go on from the one above.
+  /// True if a line seems to continue the one above.
   bool continues(std::uint32_t line) const {
     return dialect_.language == Language::Structured && line > 1 && goes_on(source_.line(line - 1));
   }
 
-  /// The nearest line that is not blank; 0 where there is none.
+  /// The nearest non-blank line; 0 if there is none.
   std::uint32_t above(std::uint32_t line) const {
     do
       --line;
@@ -280,8 +281,8 @@ private:
     return source_.line(line).find_first_not_of(" \t") == std::string_view::npos;
   }
 
-  /// An `if` of several lines that is one here: with its statement, and with its `else`, where
-  /// nothing ends the block.
+  /// Joins an `if` over several lines with its statement, and its `else`, if no line ends the
+  /// block.
   bool join_if(Diagnostic& finding) const {
     const auto line = line_of(finding);
     if (dialect_.language != Language::Basic)
@@ -312,8 +313,8 @@ private:
            (tokens.size() == 1 || (tokens.size() == 2 && tokens[1].is(":")));
   }
 
-  /// `if … then`, a statement, `else`, and a statement that is the last one before the program ends
-  /// or jumps.
+  /// Joins `if … then`, a statement, `else`, and a statement that is the last one before the
+  /// program ends or jumps.
   bool join_else(std::uint32_t line, Diagnostic& finding) const {
     if (line == 0 || !begins_if(tokens_at(line)))
       return false;
@@ -327,7 +328,7 @@ private:
            join({line, yes, other, no}, finding);
   }
 
-  /// Whether a line but `but` ends an `if` or its first part.
+  /// True if a line other than `but` ends an `if` or its first part.
   bool ends_an_if(std::uint32_t but = 0) const {
     for (std::uint32_t n = 1; n <= source_.line_count(); ++n) {
       const auto tokens = split(source_.line(n).substr(0, longest_line), dialect_.language).tokens;
@@ -339,7 +340,7 @@ private:
     return false;
   }
 
-  /// Offers the first of some lines with what is in the others, which are left out.
+  /// Proposes to merge some lines into the first one.
   bool join(const std::vector<std::uint32_t>& lines, Diagnostic& finding) const {
     if (std::any_of(lines.begin(), lines.end(), [&](std::uint32_t line) {
           return line == 0 || source_.line(line).size() > longest_line ||
@@ -378,7 +379,7 @@ private:
     return true;
   }
 
-  /// Whether a word is unknown because the line that sets or names it is wrong itself.
+  /// True if a word is unknown only because the line that assigns or names it has an error.
   bool is_consequence(const Diagnostic& finding) const {
     if (dialect_.language != Language::Structured || !is_unknown(finding))
       return false;
@@ -395,8 +396,8 @@ private:
     });
   }
 
-  /// `while` or `loop` as the last line of a block, as other languages have it: the innermost open
-  /// block begins above, and nothing stands deeper below.
+  /// Closes a block whose last line is `while` or `loop`, as in other languages: the innermost open
+  /// block begins above, and no line below is indented further.
   void close_block(Diagnostic& finding) {
     const auto line = line_of(finding);
     const auto next = below(line);
@@ -439,7 +440,7 @@ private:
     }
   }
 
-  /// `until` as the first line of a block: what stands below it is deeper.
+  /// Opens a block whose first line is `until`: the lines below it are indented further.
   void open_block(Diagnostic& finding) {
     const auto line = line_of(finding);
     const auto tokens = tokens_at(line);
@@ -461,7 +462,7 @@ private:
     return std::min(text.find_first_not_of(" \t"), text.size());
   }
 
-  /// What a loop ends with that goes on while a condition holds.
+  /// The end condition of a loop that runs while a condition holds.
   std::string until(const Tokens& condition) const {
     if (condition.size() > 1 && condition[0].is("not"))
       return repair::join(Tokens(condition.begin() + 1, condition.end()));
@@ -496,10 +497,10 @@ private:
           (found[0].fewer || found[0].open))
         texts_[at] = found[0].text;
     } else if (here && finding.fix && says_line(finding.help) && !mends(finding)) {
-      finding.help = {}; // one error would only take the place of another
+      finding.help = {}; // it would only replace one error by another
       finding.fix.reset();
     } else if (here && says_little(finding)) {
-      // What a person typed says it best; what was read of that may.
+      // Prefer advice on the line as typed, then on the line as read.
       auto advice = advise(split(line.written, line.language()).tokens, line.around);
       if (advice.empty())
         advice = advise(line.tokens, line.around);
@@ -508,19 +509,19 @@ private:
     }
   }
 
-  /// Whether fewer errors are left with the fix of a finding alone.
+  /// True if the fix of a finding alone reduces the number of errors.
   bool mends(Diagnostic finding) const {
-    finding.fix->safety = Safety::Safe; // as it is taken
+    finding.fix->safety = Safety::Safe; // as if accepted
     return errors_in(dialect_.check(apply_fixes(source_.text(), {finding}).text)) <
            errors_in(before_);
   }
 
-  /// A line that is right once the others are mended stays as it is: it was judged before them. One
-  /// that does not even parse is not, but for what tests list below `prints`.
+  /// Drops the proposal for a line that becomes correct once the others are repaired: it was judged
+  /// before them. Keeps it for lines that do not parse, and for lists below `prints`.
   void take_back(const std::vector<Diagnostic*>& findings) {
     if (texts_.size() < 2)
       return;
-    std::optional<std::size_t> errors; // of the text as it will be
+    std::optional<std::size_t> errors; // of the repaired text
     for (auto* finding : findings) {
       if (dialect_.language != Language::Test && !dialect_.parses(source_.line(line_of(*finding))))
         continue;
@@ -538,8 +539,8 @@ private:
     }
   }
 
-  /// What a block begins with may have been mended after what is in it: from the first line down,
-  /// each line is judged once more among the others.
+  /// The start of a block may have been repaired after its contents: judges each line again from
+  /// the top down, among the others.
   void offer_again(const std::vector<Diagnostic*>& findings) {
     if (texts_.empty() || errors_in(dialect_.check(whole_text())) == 0)
       return;
@@ -561,7 +562,7 @@ private:
     }
   }
 
-  /// A block without its end, whose first line will be another one: so is its end.
+  /// Updates the end of an unclosed block whose first line is repaired.
   void close_mended() {
     for (auto& finding : findings_) {
       const auto mended = texts_.find(line_of(finding));
@@ -576,12 +577,13 @@ private:
     }
   }
 
-  /// What ends the block of a word, as a finding says it.
+  /// The end of a block, as shown in a finding.
   static Message end_of(std::string_view word) {
     return Message::as_is("end " + std::string(word));
   }
 
-  /// Lines from `from` to before `to`, those that are mended as they will be, each with its end.
+  /// The lines from `from` up to `to` (exclusive), repaired where possible, with their line
+  /// endings.
   std::string lines(std::uint32_t from, std::uint32_t to) const {
     std::string text;
     for (auto n = from; n < to; ++n) {
@@ -594,14 +596,14 @@ private:
   }
   std::string whole_text() const { return lines(1, source_.line_count() + 1); }
 
-  /// A line as it is read.
+  /// Reads and normalises a line.
   Line read(std::uint32_t at) const {
     auto line = look_at(source_, dialect_, scenery_, at);
     normalise(line);
     return line;
   }
 
-  /// The lines to write for one, the best first; keeps in the finding what was checked.
+  /// Finds the replacements for a line, the best first; stores all checked ones in the finding.
   std::vector<Accepted> mend(Line& line, Diagnostic& finding) {
     line.misplaced = finding.rule->trouble == Trouble::MisplacedStatement;
     const auto at = source_.position(line.begin).line;
@@ -630,8 +632,8 @@ private:
                : findings_about(context.above + std::string(source_.line(line)) + context.below);
   }
 
-  /// Errors that are not there once the lines are written that are offered elsewhere: an `end`
-  /// whose block begins in another language.
+  /// Drops errors that disappear once the proposed lines are in place: an `end` whose block begins
+  /// in another language.
   void drop_consequences() {
     std::vector<Diagnostic> offered;
     for (const auto& finding : findings_)
@@ -640,7 +642,7 @@ private:
     if (offered.empty() || offered.size() == errors_in(findings_))
       return;
     for (auto& one : offered)
-      one.fix->safety = Safety::Safe; // as all are taken
+      one.fix->safety = Safety::Safe; // as if all were accepted
     const Source then({}, apply_fixes(source_.text(), offered).text);
     const auto after = dialect_.check(then.text());
     for (const auto& one : after)
@@ -652,7 +654,7 @@ private:
                    return was.rule == one.rule && was.message == one.message;
                  });
         }))
-      return; // what was offered does not go far enough to tell
+      return; // the proposals do not go far enough to tell
     std::set<std::uint32_t> lines;
     for (const auto* finding : mended_)
       lines.insert(line_of(*finding));
@@ -672,8 +674,8 @@ private:
     std::erase_if(findings_, [&](const Diagnostic& one) { return gone.contains(&one); });
   }
 
-  /// What the end of a block is told of a program whose other lines are mended takes the place of
-  /// what it was told without them: of a `next` that it has no loop.
+  /// Replaces the finding about a block end, such as a `next` without a loop, by the finding in the
+  /// repaired program.
   void replace_end(const Source& then, const Diagnostic& told) {
     const auto n = then.position(told.span.begin).line;
     const auto line = then.line(n);
@@ -691,7 +693,8 @@ private:
     }
   }
 
-  /// One line after the other: "write `print "hi"`, then `delay 2s`"; without one it is left out.
+  /// Joins lines for a message: "write `print "hi"`, then `delay 2s`"; without lines it says to
+  /// remove the line.
   template <typename Shown>
   static Message in_turn(std::string_view lines, Shown shown) {
     std::vector<std::string> all;
@@ -733,7 +736,7 @@ private:
         found[0].note == nullptr ? lines : texts::Because(lines, Message(*found[0].note, {}));
     if (const auto own = fixed(line, finding);
         is_safe(finding) && (!own || without_blanks(*own) == without_blanks(found[0].text)))
-      return; // its own fix goes as far as it must
+      return; // its own fix suffices
     const bool safe = found[0].sure && (found[0].fewer || is_safe(finding)) &&
                       says_the_same(line.written, found[0].text);
     const auto safety = safe ? Safety::Safe : Safety::Unsafe;
@@ -746,7 +749,7 @@ private:
     finding.fix = Fix{lines, {difference(line.written, found[0].text, line.begin)}, safety};
   }
 
-  /// Removes a line; what jumps to it then jumps to the next one, or to an `end` in its place.
+  /// Removes a line; jumps to it are redirected to the next line, or to an `end` in its place.
   std::optional<Fix> remove(std::uint32_t line, Safety safety) const {
     Fix fix{texts::RemoveLine(), {}, safety};
     const auto number =
@@ -772,10 +775,10 @@ private:
   std::vector<Diagnostic>& findings_;
   const std::vector<Diagnostic> before_;
   Scenery scenery_;
-  std::vector<std::string> names_;             ///< that the program defines
-  std::set<std::uint32_t> lines_;              ///< looked at
-  std::set<const Diagnostic*> mended_;         ///< of `findings_`: with what is offered here
-  std::map<std::uint32_t, std::string> texts_; ///< of lines, as they are mended
+  std::vector<std::string> names_;             ///< defined by the program
+  std::set<std::uint32_t> lines_;              ///< already examined
+  std::set<const Diagnostic*> mended_;         ///< of `findings_`: those with a proposal from here
+  std::map<std::uint32_t, std::string> texts_; ///< repaired text, by line
   int checks_ = 0;
 };
 

@@ -21,27 +21,27 @@ namespace {
 
 constexpr std::string_view new_line = "\n"; // the token between two lines
 
-/// How many tokens of the line and of what is written are the same.
-struct Step {
+/// The numbers of tokens that correspond: in the line and in its replacement.
+struct Advance {
   std::size_t said = 0;
   std::size_t written = 0;
 };
-using Steps = std::vector<Step>;
+using Advances = std::vector<Advance>;
 
 const Token& nothing() {
   static const Token none;
   return none;
 }
 
-/// A place in the line, the place in what is written that it has to agree with, and all around.
-struct Place {
+/// A position in the line, the position in the replacement to match, and their context.
+struct Alignment {
   const Tokens& said;
   std::size_t i;
   const Tokens& written;
   std::size_t j;
   const Reading& reading;
-  std::string_view head; ///< of the line that is written
-  int& parses_left;      ///< so often may a line be parsed
+  std::string_view head; ///< of the replacement
+  int& parses_left;      ///< remaining budget of parses
 
   const Token& from(std::size_t n = 0) const {
     return i + n < said.size() ? said[i + n] : nothing();
@@ -63,21 +63,21 @@ struct Place {
            (reading.language == Language::Basic && word.size() == 1 &&
             to_lower(word[0]) != word[0]);
   }
-  /// Whether a word means nothing here.
+  /// True if a word is unknown here.
   bool is_foreign(const Token& token) const {
     return token.is_word() && !is_word(token.text) && !is_name(token.text);
   }
 };
 
-/// Whether a statement begins at a token.
-bool begins(const Tokens& tokens, std::size_t at) {
+/// True if a statement begins at a token.
+bool begins_statement(const Tokens& tokens, std::size_t at) {
   return at == 0 || tokens[at - 1].is(":") || tokens[at - 1].is(new_line) ||
          tokens[at - 1].is("then") || tokens[at - 1].is("else") ||
-         (at > 1 && tokens[at - 1].is(".") && begins(tokens, at - 2)) ||
+         (at > 1 && tokens[at - 1].is(".") && begins_statement(tokens, at - 2)) ||
          (tokens[at - 1].is(";") && !tokens[0].is("print"));
 }
 
-/// Whether a token is a value or ends one, or is one or begins one.
+/// True if a token ends a value; the next one, if it begins a value.
 bool ends_value(const Token& token) {
   return token.kind != Token::Kind::Sign || token.is(")") || token.is("]");
 }
@@ -85,7 +85,7 @@ bool begins_value(const Token& token) {
   return token.kind != Token::Kind::Sign || token.is("(") || token.is("-");
 }
 
-/// Whether a word computes or compares; `-` and `!` are signs.
+/// True if a token is an operator; `-` and `!` are signs.
 bool is_operator(const Token& token) {
   return (token.is_word() && holds("and or not mod xor", token.text)) ||
          (token.kind == Token::Kind::Sign && !holds("( ) [ ] { } , ; : .", token.text) &&
@@ -98,19 +98,19 @@ bool is_unit_of_turns(const Token& token) {
   return token.is_word() && holds("deg degree degrees", token.text);
 }
 
-/// A unit of time; where there are variables of one letter, those are no units.
-std::int64_t unit_at(const Place& place, const Token& token) {
+/// A unit of time. A variable of the same letter takes precedence.
+std::int64_t unit_at(const Alignment& place, const Token& token) {
   const bool variable = place.is_name(token.text);
   return token.is_word() && !variable ? milliseconds_of(token.text) : 0;
 }
 
-/// A number as others write it, so many tokens of the line long: `0x1F`, `3.0`, `1_000`, `2O0`.
+/// A number in another notation, and the number of its tokens: `0x1F`, `3.0`, `1_000`, `2O0`.
 struct Numeral {
   std::string digits;
-  std::string unit; ///< as it was written; empty without
+  std::string unit; ///< as written; empty: none
   std::size_t tokens = 1;
 };
-std::optional<Numeral> number_at(const Place& place) {
+std::optional<Numeral> number_at(const Alignment& place) {
   const auto& first = place.from();
   std::string text = first.text;
   Numeral number;
@@ -144,7 +144,7 @@ std::optional<Numeral> number_at(const Place& place) {
       text.pop_back(); // `1000UL`
   if (first.is_number())
     std::erase(text, '_');
-  // Letters that look like digits, not more of them than of these.
+  // Letters that look like digits must be fewer than the digits.
   const auto letters = std::count_if(text.begin(), text.end(), [](char c) { return !is_digit(c); });
   if (letters * 2 >= static_cast<std::ptrdiff_t>(text.size()) + (first.is_number() ? 1 : 0))
     return std::nullopt;
@@ -155,17 +155,17 @@ std::optional<Numeral> number_at(const Place& place) {
   return digits ? std::optional(number) : std::nullopt;
 }
 
-Steps other_number(const Place& place) {
+Advances other_number(const Alignment& place) {
   const auto number = number_at(place);
   if (!number || !place.to().is_number() || place.to().text != number->digits)
     return {};
   if (number->unit.empty())
     return {{number->tokens, 1}};
-  return place.to(1).is(number->unit) ? Steps{{number->tokens, 2}} : Steps();
+  return place.to(1).is(number->unit) ? Advances{{number->tokens, 2}} : Advances();
 }
 
 /// `2 s` for `2s`, or for the milliseconds of orbBasic.
-Steps same_time(const Place& place) {
+Advances same_time(const Alignment& place) {
   if (!place.from().is_number() || !place.to().is_number())
     return {};
   const auto unit = unit_at(place, place.from(1));
@@ -174,25 +174,25 @@ Steps same_time(const Place& place) {
   const auto written_unit = unit_at(place, place.to(1));
   if (written_unit == 0 && place.reading.language != Language::Basic)
     return {};
-  constexpr std::size_t longest = 9; // digits; nobody waits longer
+  constexpr std::size_t longest = 9; // digits; longer waits are unrealistic
   if (place.from().text.size() > longest || place.to().text.size() > longest)
     return {};
   const auto value = thousandths_in(place.from().text);
   const auto other = thousandths_in(place.to().text);
   const bool same =
       value && other && *value * unit == *other * std::max<std::int64_t>(written_unit, 1);
-  return same ? Steps{{2, written_unit == 0 ? 1U : 2U}} : Steps();
+  return same ? Advances{{2, written_unit == 0 ? 1U : 2U}} : Advances();
 }
 
-Steps degrees(const Place& place) {
+Advances degrees(const Alignment& place) {
   return place.before().is_number() && is_unit_of_turns(place.from()) &&
                  place.is_foreign(place.from())
-             ? Steps{{1, 0}}
-             : Steps();
+             ? Advances{{1, 0}}
+             : Advances();
 }
 
 /// `B >= 2`: all numbers are whole.
-Steps or_equal(const Place& place) {
+Advances or_equal(const Alignment& place) {
   const bool least = place.from().is(">=") || place.from().is("=>");
   const bool most = place.from().is("<=") || place.from().is("=<");
   if (place.reading.language != Language::Basic || (!least && !most) ||
@@ -209,20 +209,21 @@ Steps or_equal(const Place& place) {
   const auto from = parse_number<std::int64_t>(place.from(1).text);
   const auto to = parse_number<std::int64_t>(place.to(1).text);
   const bool ends = !is_operator(next) || next.is_word() || next.is("&&") || next.is("||");
-  return ends && from && to && *to == *from + (least ? -1 : 1) ? Steps{{2, 2}} : Steps();
+  return ends && from && to && *to == *from + (least ? -1 : 1) ? Advances{{2, 2}} : Advances();
 }
 
-/// `true` and `false`, where there are only numbers.
-Steps truth(const Place& place) {
+/// `true` and `false` where only numbers exist.
+Advances truth(const Alignment& place) {
   const auto* const number = place.from().is("true") || place.from().is("True")     ? "1"
                              : place.from().is("false") || place.from().is("False") ? "0"
                                                                                     : nullptr;
-  return place.is_program() && number != nullptr && place.to().is(number) ? Steps{{1, 1}} : Steps();
+  return place.is_program() && number != nullptr && place.to().is(number) ? Advances{{1, 1}}
+                                                                          : Advances();
 }
 
-/// `red` and `#FF0000`: the three parts of a colour; `rojo` is `red`, and a code of
+/// Two notations of one colour: `red`, `rojo` or `#FF0000`, its three channels, or its code in
 /// LEDC.
-Steps colour(const Place& place) {
+Advances colour(const Alignment& place) {
   if (!place.is_foreign(place.from()) && place.from().kind != Token::Kind::Colour)
     return {};
   const auto value = find_colour(place.from());
@@ -235,7 +236,7 @@ Steps colour(const Place& place) {
   const auto part = [&](std::size_t at, unsigned shift) {
     return place.to(at).text == std::to_string(*value >> shift & UINT8_MAX);
   };
-  return part(0, 16) && part(2, 8) && part(4, 0) ? Steps{{1, 5}} : Steps();
+  return part(0, 16) && part(2, 8) && part(4, 0) ? Advances{{1, 5}} : Advances();
 }
 
 // ---- operators
@@ -260,88 +261,87 @@ std::string_view operator_called(const Token& token, Language language) {
   return text;
 }
 
-Steps same_operator(const Place& place) {
+Advances same_operator(const Alignment& place) {
   const auto language = place.reading.language;
   return place.is_program() && !place.from().is_text() && !place.to().is_text() &&
                  operator_called(place.from(), language) == operator_called(place.to(), language) &&
                  is_operator(place.to())
-             ? Steps{{1, 1}}
-             : Steps();
+             ? Advances{{1, 1}}
+             : Advances();
 }
 
-/// `A += 2` and `A++`. More than one value behind it has parentheses, which close at
-/// the end.
-Steps compound(const Place& place) {
+/// `A += 2` and `A++`. An operand of several values is in parentheses, which close at the end.
+Advances compound(const Alignment& place) {
   const auto& sign = place.from(1);
   const auto& name = place.from();
   const bool counts =
-      begins(place.said, place.i) && name.is_word() && place.to().is(name.text) &&
+      begins_statement(place.said, place.i) && name.is_word() && place.to().is(name.text) &&
       ((sign.is("++") && place.to(1).is("+=")) || (sign.is("--") && place.to(1).is("-=")));
   if (counts && place.to(2).is("1"))
     return {{2, 3}};
-  const bool begun = begins(place.said, place.i) && name.is_word() && place.to().is_word() &&
-                     place.to(2).is_word() && equal_words(place.to().text, name.text) &&
+  const bool begun = begins_statement(place.said, place.i) && name.is_word() &&
+                     place.to().is_word() && place.to(2).is_word() &&
+                     equal_words(place.to().text, name.text) &&
                      equal_words(place.to(2).text, name.text) && place.to(1).is("=");
   if (!begun || sign.text.size() != 2 || !place.to(3).is(sign.text.substr(0, 1)))
     return {};
   if (sign.is("++") || sign.is("--"))
-    return place.to(4).is("1") ? Steps{{2, 5}} : Steps();
+    return place.to(4).is("1") ? Advances{{2, 5}} : Advances();
   if (sign.text[1] != '=')
     return {};
   if (place.i + 3 == place.said.size() || sign.is("+="))
     return {{2, 4}};
   return place.to(4).is("(") && close_of(place.written, place.j + 4) + 1 == place.written.size()
-             ? Steps{{2, 5}}
-             : Steps();
+             ? Advances{{2, 5}}
+             : Advances();
 }
-Steps compound_end(const Place& place) {
+Advances compound_end(const Alignment& place) {
   const bool turned = place.written.size() > 3 && place.written[1].is("not") &&
                       place.written[2].is("(") && !has_token(place.said, "not");
   const bool sets =
       place.said.size() > 1 && place.said[1].text.size() == 2 && place.said[1].text[1] == '=';
   return place.i == place.said.size() && place.j + 1 == place.written.size() &&
                  place.to().is(")") && (sets || turned)
-             ? Steps{{0, 1}}
-             : Steps();
+             ? Advances{{0, 1}}
+             : Advances();
 }
 
-/// `print "n = " + N`: what is printed stands side by side.
-Steps joined_texts(const Place& place) {
+/// `print "n = " + N`: printed items are adjacent.
+Advances joined_texts(const Alignment& place) {
   const bool beside = place.from().is("+") || place.from().is("&");
   return beside && place.is_program() && place.first().is("print") &&
                  (place.before().is_text() || place.from(1).is_text()) &&
                  !has_token(place.written, "+")
-             ? Steps{{1, 0}}
-             : Steps();
+             ? Advances{{1, 0}}
+             : Advances();
 }
 
 // ---- words
 
-Steps same_token(const Place& place) {
+Advances same_token(const Alignment& place) {
   const auto& from = place.from();
   const auto& to = place.to();
   if (from.text.empty() && !from.is_text())
     return {};
   if (from.is_word() && to.is_word())
     return from.text == to.text || (equal_words(from.text, to.text) && !place.is_name(from.text))
-               ? Steps{{1, 1}}
-               : Steps();
+               ? Advances{{1, 1}}
+               : Advances();
   if (from.kind != to.kind || from.text != to.text)
     return {};
   if (!from.is_text() || from.closed)
     return {{1, 1}};
-  // A quote is missing at the end: behind a value, or a sign that parts values, it is
-  // elsewhere.
+  // The closing quote is missing. If a value or a separator follows, the text ends elsewhere.
   const auto inner = tokens_of(from.text, place.reading.language);
   const bool all = std::none_of(inner.begin(), inner.end(), [&](const Token& token) {
     return token.is(",") || token.is(";") || (token.is_word() && place.is_name(token.text)) ||
            (token.is_word() && place.is_program() && place.is_word(token.text));
   });
-  return all && place.i + 1 == place.said.size() ? Steps{{1, 1}} : Steps();
+  return all && place.i + 1 == place.said.size() ? Advances{{1, 1}} : Advances();
 }
 
-/// A misspelt word: no other one is as near.
-Steps misspelt(const Place& place) {
+/// A misspelt word: no other word is as close.
+Advances misspelt(const Alignment& place) {
   constexpr std::size_t shortest = 3;
   const auto& word = place.from();
   const auto& meant = place.to();
@@ -354,8 +354,8 @@ Steps misspelt(const Place& place) {
   const bool alone =
       std::none_of(place.reading.words.begin(), place.reading.words.end(), as_near) &&
       std::none_of(place.reading.names.begin(), place.reading.names.end(), as_near);
-  return alone && (place.is_word(meant.text) || place.is_name(meant.text)) ? Steps{{1, 1}}
-                                                                           : Steps();
+  return alone && (place.is_word(meant.text) || place.is_name(meant.text)) ? Advances{{1, 1}}
+                                                                           : Advances();
 }
 
 std::string letters_in(const Tokens& tokens, std::size_t at, std::size_t count) {
@@ -366,9 +366,8 @@ std::string letters_in(const Tokens& tokens, std::size_t at, std::size_t count) 
   return all;
 }
 
-/// `endif`, `go to`, `wait for shake` where there is a `wait_for_shake`: words apart
-/// or together.
-Steps together(const Place& place) {
+/// Words split or joined: `endif`, `go to`, `wait for shake` if there is a `wait_for_shake`.
+Advances together(const Alignment& place) {
   constexpr std::size_t most = 4;
   std::size_t apart = 0;
   while (apart < most && place.from(apart).is_word() && !place.from(apart).text.empty())
@@ -384,28 +383,28 @@ Steps together(const Place& place) {
   return {};
 }
 
-/// What begins, ends and leaves a block in other languages of BASIC.
-Steps block_words(const Place& place) {
-  struct Pair {
+/// Block words of other BASIC dialects.
+Advances block_words(const Alignment& place) {
+  struct BlockWords {
     std::string_view theirs;
     std::string_view ours;
   };
   constexpr auto pairs =
-      std::to_array<Pair>({{"do while", "while"},
-                           {"do until", "while not ("},
-                           {"loop while", "until not ("},
-                           {"loop until", "until"},
-                           {"end procedure", "end sub"},
-                           {"end func", "end function"},
-                           {"end for", "next"},
-                           {"exit sub", "return"},
-                           {"break", "exit"}, // in a case repair/keeping.cpp leaves it out
-                           {"default", "else"},
-                           {"do", "repeat"},
-                           {"do", "loop"},
-                           {"loop", "end while"},
-                           {"loop", "end loop"}});
-  if (place.reading.language != Language::Structured || !begins(place.said, place.i))
+      std::to_array<BlockWords>({{"do while", "while"},
+                                 {"do until", "while not ("},
+                                 {"loop while", "until not ("},
+                                 {"loop until", "until"},
+                                 {"end procedure", "end sub"},
+                                 {"end func", "end function"},
+                                 {"end for", "next"},
+                                 {"exit sub", "return"},
+                                 {"break", "exit"}, // inside a case repair/keeping.cpp removes it
+                                 {"default", "else"},
+                                 {"do", "repeat"},
+                                 {"do", "loop"},
+                                 {"loop", "end while"},
+                                 {"loop", "end loop"}});
+  if (place.reading.language != Language::Structured || !begins_statement(place.said, place.i))
     return {};
   const auto says = [](const Tokens& tokens, std::size_t at, std::string_view phrase) {
     const auto words = words_in(phrase);
@@ -415,15 +414,15 @@ Steps block_words(const Place& place) {
     return n == words.size() ? n : 0;
   };
   for (const auto& pair : pairs)
-    if (const Step step{says(place.said, place.i, pair.theirs),
-                        says(place.written, place.j, pair.ours)};
+    if (const Advance step{says(place.said, place.i, pair.theirs),
+                           says(place.written, place.j, pair.ours)};
         step.said > 0 && step.written > 0)
       return {step};
   return {};
 }
 
 /// `delay500` and `1to5`.
-Steps number_behind(const Place& place) {
+Advances number_behind(const Alignment& place) {
   if (!place.is_foreign(place.from()) || !place.to().is_word() || !place.is_word(place.to().text) ||
       !place.to(1).is_number())
     return {};
@@ -434,21 +433,21 @@ Steps number_behind(const Place& place) {
   return {};
 }
 
-/// `wenn` and `sonst`: the word in another tongue.
-Steps spoken(const Place& place) {
+/// `wenn` and `sonst`: the word in another natural language.
+Advances spoken(const Alignment& place) {
   constexpr std::size_t shortest = 2;
   return place.is_foreign(place.from()) && place.from().text.size() >= shortest &&
                  place.to().is_word() && place.is_word(place.to().text) &&
                  word_at(place.said, place.i) == lower(place.to().text)
-             ? Steps{{1, 1}}
-             : Steps();
+             ? Advances{{1, 1}}
+             : Advances();
 }
 
-/// `println A`, `Serial.println(A)`, `elif A = 1`: another word for a statement, whose
-/// values stay. A word alone says too little; `endif` and its like do not.
-Steps foreign_statement(const Place& place) {
-  if (!begins(place.said, place.i) || !begins(place.written, place.j) || !place.to().is_word() ||
-      !place.is_word(place.to().text))
+/// Another word for a statement with the same values: `println A`, `Serial.println(A)`, `elif A =
+/// 1`. A single word is not enough evidence, except for `endif` and the like.
+Advances foreign_statement(const Alignment& place) {
+  if (!begins_statement(place.said, place.i) || !begins_statement(place.written, place.j) ||
+      !place.to().is_word() || !place.is_word(place.to().text))
     return {};
   std::size_t last = 0;
   while (place.from(last).is_word() && place.is_foreign(place.from(last)) &&
@@ -464,30 +463,30 @@ Steps foreign_statement(const Place& place) {
   const bool closes =
       place.to().is("end") && place.to(1).is_word() && place.is_word(place.to(1).text);
   if (closes)
-    return place.i + last + 1 == place.said.size() ? Steps{{last + 1, 2}} : Steps();
+    return place.i + last + 1 == place.said.size() ? Advances{{last + 1, 2}} : Advances();
   const bool alone = place.i + last + 1 == place.said.size() || place.from(last + 1).is(":");
-  return alone && !equal_words(place.to().text, "else") ? Steps() : Steps{{last + 1, 1}};
+  return alone && !equal_words(place.to().text, "else") ? Advances() : Advances{{last + 1, 1}};
 }
 
-/// `let A = 1`, `while A < 3 do`: words that say nothing here.
-Steps filler(const Place& place) {
+/// Words without a meaning here: `let A = 1`, `while A < 3 do`.
+Advances filler(const Alignment& place) {
   const auto& word = place.from();
   if ((place.is_word(word.text) && !equal_words(word.text, "let")) || place.is_name(word.text))
     return {};
-  const bool sets = begins(place.said, place.i) && holds("let var int call", word.text) &&
+  const bool sets = begins_statement(place.said, place.i) && holds("let var int call", word.text) &&
                     place.from(1).is_word();
   const bool does = word.is("do") && place.i > 0 && place.i + 1 == place.said.size();
   const bool clears = word.is("cls") && place.said.size() == 1; // there is no screen
-  return word.is_word() && (sets || does || clears) ? Steps{{1, 0}} : Steps();
+  return word.is_word() && (sets || does || clears) ? Advances{{1, 0}} : Advances();
 }
 
 // ---- signs
 
-/// Whether the line that is written parses with some other tokens.
-bool parses(const Place& place, const Tokens& tokens) {
+/// True if the replacement parses with some tokens changed.
+bool parses(const Alignment& place, const Tokens& tokens) {
   std::string text(place.head);
   text += join(tokens);
-  return --place.parses_left < 0 || // nobody knows
+  return --place.parses_left < 0 || // unknown
          (text.find('\n') == std::string::npos && place.reading.parses(text));
 }
 
@@ -496,13 +495,13 @@ Tokens with(Tokens tokens, std::size_t at, const Token& token) {
   return tokens;
 }
 
-/// Whether what was put in cannot stand elsewhere: nowhere else does the line parse
+/// True if an inserted sign has only one possible position: anywhere else the line does not parse
 /// with it.
-bool stands_here_only(const Place& place) {
+bool stands_here_only(const Alignment& place) {
   auto without = place.written;
   const auto sign = without[place.j];
   without.erase(without.begin() + static_cast<std::ptrdiff_t>(place.j));
-  const auto joins = [&](std::size_t at) { // `then` stands at no operator
+  const auto joins = [&](std::size_t at) { // `then` is never next to an operator
     return sign.is_word() &&
            (is_operator(without[at - 1]) || (at < without.size() && is_operator(without[at])));
   };
@@ -512,8 +511,8 @@ bool stands_here_only(const Place& place) {
   return true;
 }
 
-/// Whether parentheses change nothing: there is one value in them, or all that a
-/// statement has or that stands between two commas.
+/// True if parentheses are redundant: they contain one value, or the whole of a statement or of an
+/// operand between two commas.
 bool is_idle(const Tokens& tokens, std::size_t open, std::size_t close) {
   if (close >= tokens.size() || close < open + 2)
     return false;
@@ -522,23 +521,24 @@ bool is_idle(const Tokens& tokens, std::size_t open, std::size_t close) {
   const auto& after = close + 1 < tokens.size() ? tokens[close + 1] : nothing();
   const bool calls = before.is_word() && !tokens[open].gap;
   const bool operand =
-      before.is_word() && !begins(tokens, open - 1) && holds("* / % + -", after.text);
+      before.is_word() && !begins_statement(tokens, open - 1) && holds("* / % + -", after.text);
   if (inner.size() == 1)
-    return !operand; // of what is `rnd 256 - 1`?
+    return !operand; // the operand of `rnd 256 - 1` is ambiguous
   const bool computes = std::any_of(inner.begin(), inner.end(), [](const Token& token) {
     return token.is_relation() || (token.is_word() && is_operator(token));
   });
-  const bool begun = (before.is_word() && (begins(tokens, open - 1) ||
+  const bool begun = (before.is_word() && (begins_statement(tokens, open - 1) ||
                                            holds("if elseif while until to step", before.text))) ||
                      before.is(",") || before.is("(") || (before.is("=") && !computes);
   const bool ended = after.text.empty() || after.is(",") || after.is(")") || after.is("then") ||
                      after.is("goto") || after.is("to") || after.is("step") || after.is("{") ||
                      after.is(":") || after.is(";") || after.is(new_line);
   const bool values = has_token(inner, ",");
-  return begun && ended && (!values || (before.is_word() && (calls || begins(tokens, open - 1))));
+  return begun && ended &&
+         (!values || (before.is_word() && (calls || begins_statement(tokens, open - 1))));
 }
 
-/// The bracket that opens the one at a place; the number of tokens where none does.
+/// The opening bracket for a closing one; the number of tokens if there is none.
 std::size_t open_of(const Tokens& tokens, std::size_t close) {
   for (std::size_t open = 0; open < close; ++open)
     if (tokens[open].is("(") && close_of(tokens, open) == close)
@@ -551,13 +551,13 @@ bool is_idle_at(const Tokens& tokens, std::size_t at) {
                             : open_of(tokens, at) < at && is_idle(tokens, open_of(tokens, at), at);
 }
 
-/// Whether a bracket has no other one.
+/// True if a bracket has no partner.
 bool is_lone(const Tokens& tokens, std::size_t at) {
   return tokens[at].is("(") ? close_of(tokens, at) == tokens.size()
                             : open_of(tokens, at) == tokens.size();
 }
 
-Steps bracket_in(const Place& place) {
+Advances bracket_in(const Alignment& place) {
   if (!(place.to().is("(") || place.to().is(")")))
     return {};
   if (place.reading.language == Language::Structured && place.to(1).is(")") && place.j > 0 &&
@@ -566,13 +566,13 @@ Steps bracket_in(const Place& place) {
   const auto opens = place.to().is("(") ? place.j : open_of(place.written, place.j);
   const bool lacked =
       opens < place.written.size() && has_token(place.said, place.to().is("(") ? ")" : "(");
-  return is_idle_at(place.written, place.j) || (lacked && stands_here_only(place)) ? Steps{{0, 1}}
-                                                                                   : Steps();
+  return is_idle_at(place.written, place.j) || (lacked && stands_here_only(place))
+             ? Advances{{0, 1}}
+             : Advances();
 }
 
-/// A bracket too many: with the other one put in, the line would say something else,
-/// or nothing.
-bool lacks_other(const Place& place) {
+/// An extra bracket: with its partner added, the line would mean something else, or nothing.
+bool lacks_other(const Alignment& place) {
   const bool opens = place.from().is("(");
   Token other = place.from();
   other.text = opens ? ")" : "(";
@@ -586,28 +586,29 @@ bool lacks_other(const Place& place) {
   return false;
 }
 
-Steps bracket_out(const Place& place) {
+Advances bracket_out(const Alignment& place) {
   if (!(place.from().is("(") || place.from().is(")")))
     return {};
   const bool lone = is_lone(place.said, place.i);
-  return is_idle_at(place.said, place.i) || (lone && !lacks_other(place)) ? Steps{{1, 0}} : Steps();
+  return is_idle_at(place.said, place.i) || (lone && !lacks_other(place)) ? Advances{{1, 0}}
+                                                                          : Advances();
 }
 
 /// `[` and `{` for `(`.
-Steps other_bracket(const Place& place) {
+Advances other_bracket(const Alignment& place) {
   const bool opens = (place.from().is("[") || place.from().is("{")) && place.to().is("(");
   const bool closes = (place.from().is("]") || place.from().is("}")) && place.to().is(")");
-  return opens || closes ? Steps{{1, 1}} : Steps();
+  return opens || closes ? Advances{{1, 1}} : Advances();
 }
 
-/// A comma where two values stand side by side: as one number, or with an operator
-/// between, they would be too few.
-Steps comma_in(const Place& place) {
+/// A missing comma between two adjacent values, where the line would not parse with the two joined
+/// or with an operator between them.
+Advances comma_in(const Alignment& place) {
   if (!place.to().is(",") || place.j == 0 || place.j + 1 >= place.written.size() || place.i == 0 ||
       !ends_value(place.before()) || !begins_value(place.from()) || place.from().is("-") ||
       is_operator(place.before()) || is_operator(place.from()) ||
       place.first_written().is("print") || place.first_written().is("data") ||
-      begins(place.said, place.i - 1))
+      begins_statement(place.said, place.i - 1))
     return {};
   auto sum = place.written;
   sum[place.j].text = "+";
@@ -615,17 +616,17 @@ Steps comma_in(const Place& place) {
   one[place.j - 1].text += one[place.j + 1].text;
   one.erase(one.begin() + static_cast<std::ptrdiff_t>(place.j),
             one.begin() + static_cast<std::ptrdiff_t>(place.j) + 2);
-  return parses(place, sum) || parses(place, one) ? Steps() : Steps{{0, 1}};
+  return parses(place, sum) || parses(place, one) ? Advances() : Advances{{0, 1}};
 }
 
-/// A comma too many, where no value can be missing.
-Steps comma_out(const Place& place) {
+/// An extra comma where no value can be missing.
+Advances comma_out(const Alignment& place) {
   if (!place.from().is(",") || place.said.size() == 1)
     return {};
   if (!place.is_program())
-    return {{1, 0}}; // blanks part values
+    return {{1, 0}}; // spaces separate values
   const bool parts = place.i > 0 && place.i + 1 < place.said.size() && ends_value(place.before()) &&
-                     begins_value(place.from(1)) && !begins(place.said, place.i - 1);
+                     begins_value(place.from(1)) && !begins_statement(place.said, place.i - 1);
   if (parts)
     return {};
   Token value;
@@ -639,92 +640,92 @@ Steps comma_out(const Place& place) {
   return {{1, 0}};
 }
 
-Steps other_comma(const Place& place) {
+Advances other_comma(const Alignment& place) {
   return place.to().is(",") && !place.first().is("print") &&
                  (place.from().is(";") || place.from().is(".") || place.from().is(":"))
-             ? Steps{{1, 1}}
-             : Steps();
+             ? Advances{{1, 1}}
+             : Advances();
 }
 
-/// `;`, `:` and `{` at the end, as other languages have them.
-Steps at_end(const Place& place) {
+/// `;`, `:` and `{` at the end, as in other languages.
+Advances at_end(const Alignment& place) {
   const auto& sign = place.from();
   return (sign.is(";") || sign.is(":") || sign.is("{")) && place.i + 1 == place.said.size() &&
                  !(sign.is(";") && place.first().is("print") && place.is_program())
-             ? Steps{{1, 0}}
-             : Steps();
+             ? Advances{{1, 0}}
+             : Advances();
 }
 
-/// A sign that says of what kind a name is: `$a`, `@a`, `A%`.
-Steps sigil(const Place& place) {
+/// A type sign of a name: `$a`, `@a`, `A%`.
+Advances sigil(const Alignment& place) {
   const auto& sign = place.from();
   const bool front = (sign.is("$") || sign.is("@") || sign.is("#")) && place.from(1).is_word() &&
                      !place.from(1).gap && !(place.i > 0 && place.before().is_word() && !sign.gap);
   const bool behind = (sign.is("%") || sign.is("&") || sign.is("!")) && place.before().is_word() &&
                       !sign.gap && !begins_value(place.from(1));
-  return front || behind ? Steps{{1, 0}} : Steps();
+  return front || behind ? Advances{{1, 0}} : Advances();
 }
 
-/// A sign between the number of a line and its statement: `10) LEDC 1`, `10: LEDC 1`.
-Steps behind_number(const Place& place) {
+/// A sign between the line number and the statement: `10) LEDC 1`, `10: LEDC 1`.
+Advances behind_number(const Alignment& place) {
   const auto& sign = place.from();
   return place.reading.language == Language::Basic && place.i == 0 && place.said.size() > 1 &&
                  (sign.is(")") || sign.is(".") || sign.is(":"))
-             ? Steps{{1, 0}}
-             : Steps();
+             ? Advances{{1, 0}}
+             : Advances();
 }
 
-/// `then` in a condition that lacks it, or has a colon.
-Steps then_in(const Place& place) {
+/// A `then` that a condition lacks, or writes as a colon.
+Advances then_in(const Alignment& place) {
   const bool colon = place.from().is(":") && place.first().is("if") &&
                      !has_token(place.said, "then") && place.is_program();
   if (colon && place.to().is("then"))
     return {{1, 1}};
   return place.to().is("then") && place.is_program() && place.first_written().is("if") &&
                  !has_token(place.said, "then") && stands_here_only(place)
-             ? Steps{{0, 1}}
-             : Steps();
+             ? Advances{{0, 1}}
+             : Advances();
 }
 
-/// `then 60`: there is nothing else to do with a number.
-Steps goto_in(const Place& place) {
+/// `then 60`: a number there can only be a jump target.
+Advances goto_in(const Alignment& place) {
   return place.reading.language == Language::Basic && place.to().is("goto") &&
                  (place.before().is("then") || place.before().is("else")) &&
                  place.from().is_number() && place.i + 1 == place.said.size()
-             ? Steps{{0, 1}}
-             : Steps();
+             ? Advances{{0, 1}}
+             : Advances();
 }
 
-/// A label before a statement: what jumps to it takes the number of its line.
-Steps label_out(const Place& place) {
+/// A label before a statement: jumps to it get the number of its line.
+Advances label_out(const Alignment& place) {
   const auto& name = place.from();
   const bool stands = place.i == 0 && name.is_word() && !place.is_word(name.text) &&
                       place.from(1).is(":") && place.said.size() > 2;
   return stands && place.reading.number_of && !place.reading.number_of(name.text).empty()
-             ? Steps{{2, 0}}
-             : Steps();
+             ? Advances{{2, 0}}
+             : Advances();
 }
 
-/// A label, for the number of its line.
-Steps label(const Place& place) {
+/// A label, replaced by the number of its line.
+Advances label(const Alignment& place) {
   const bool jumps = place.before().is("goto") || place.before().is("gosub");
   return jumps && place.from().is_word() && place.reading.number_of &&
                  place.reading.number_of(place.from().text) == place.to().text
-             ? Steps{{1, 1}}
-             : Steps();
+             ? Advances{{1, 1}}
+             : Advances();
 }
 
-/// Several statements in a line; what follows a condition depends on it.
-Steps next_line(const Place& place) {
+/// Several statements on a line. After a condition they would depend on it.
+Advances next_line(const Alignment& place) {
   const bool depends = std::any_of(place.said.begin(), place.said.end(), [](const Token& token) {
     return token.is("if") || token.is("else");
   });
   const bool parts = place.from().is(":") || (place.from().is(";") && !place.first().is("print"));
-  return place.to().is(new_line) && parts && !depends ? Steps{{1, 1}} : Steps();
+  return place.to().is(new_line) && parts && !depends ? Advances{{1, 1}} : Advances();
 }
 
-/// Two statements side by side: the second begins with its word, and nowhere else would both parse.
-Steps line_in(const Place& place) {
+/// Two adjacent statements: the second begins with its keyword, and only this split parses.
+Advances line_in(const Alignment& place) {
   const bool depends = has_token(place.said, "if") || has_token(place.said, "else");
   // `print print` is one word too many.
   if (!place.to().is(new_line) || depends || place.i < 2 || !place.from().is_word() ||
@@ -739,45 +740,45 @@ Steps line_in(const Place& place) {
   return {{0, 1}};
 }
 
-/// A remark that the program jumps to and ends with.
-Steps end_at_remark(const Place& place) {
+/// A remark that is a jump target and ends the program.
+Advances end_at_remark(const Alignment& place) {
   if (place.said.size() == 1 && place.from().is("cls") && place.written.size() == 1 &&
       place.to().is("end"))
     return {{1, 1}};
-  return place.said.empty() && place.written.size() == 1 && place.to().is("end") ? Steps{{0, 1}}
-                                                                                 : Steps();
+  return place.said.empty() && place.written.size() == 1 && place.to().is("end") ? Advances{{0, 1}}
+                                                                                 : Advances();
 }
 
-/// `}` in a structured program: what it closes is the block that is open.
-Steps brace(const Place& place) {
+/// `}` in a structured program closes the open block.
+Advances brace(const Alignment& place) {
   if (place.reading.language != Language::Structured || place.i != 0 || !place.from().is("}"))
     return {};
   if (place.said.size() > 1)
-    return place.to().is("else") || place.to().is("elseif") ? Steps{{1, 0}} : Steps();
+    return place.to().is("else") || place.to().is("elseif") ? Advances{{1, 0}} : Advances();
   if (place.to().is("next"))
     return {{1, 1}};
-  return place.to().is("end") ? Steps{{1, 2}} : Steps();
+  return place.to().is("end") ? Advances{{1, 2}} : Advances();
 }
 
 /// `id 40` and `id: 40` for `id=40`.
-Steps slot_sign(const Place& place) {
+Advances slot_sign(const Alignment& place) {
   const bool slot = place.reading.language == Language::Macro && place.before().is("id");
   if (!slot || !place.to().is("="))
     return {};
   if (place.from().is(":"))
     return {{1, 1}};
-  return place.from().is_number() ? Steps{{0, 1}} : Steps();
+  return place.from().is_number() ? Advances{{0, 1}} : Advances();
 }
 
 struct Row {
   Notation notation;
-  Steps (*steps)(const Place&);
+  Advances (*steps)(const Alignment&);
 };
 
 constexpr auto basic = Language::Basic;
 constexpr auto structured = Language::Structured;
 
-/// What differs only in its notation.
+/// The differences that only concern notation.
 constexpr auto rows = std::to_array<Row>({
     {{"the same, in capitals, quotes or blanks", basic, "10 PRINT 'hi'", "10 print \"hi\""},
      same_token},
@@ -822,7 +823,7 @@ constexpr auto rows = std::to_array<Row>({
     {{"the sign of a slot", Language::Macro, ".macro m id 40", ".macro m id=40"}, slot_sign},
 });
 
-/// Looks for a way from one line to the other, a row at a time.
+/// Searches for a sequence of rows that turns one line into the other.
 class Way {
 public:
   Way(const Tokens& said, const Tokens& written, const Reading& reading, std::string_view head)
@@ -833,10 +834,10 @@ public:
       return true;
     if (!seen_.emplace(i, j).second)
       return false;
-    const Place place{said_, i, written_, j, reading_, head_, parses_left_};
+    const Alignment place{said_, i, written_, j, reading_, head_, parses_left_};
     return std::any_of(rows.begin(), rows.end(), [&](const Row& row) {
       const auto steps = row.steps(place);
-      return std::any_of(steps.begin(), steps.end(), [&](const Step& step) {
+      return std::any_of(steps.begin(), steps.end(), [&](const Advance& step) {
         return i + step.said <= said_.size() && j + step.written <= written_.size() &&
                leads(i + step.said, j + step.written);
       });
@@ -848,7 +849,7 @@ private:
   const Tokens& written_;
   const Reading& reading_;
   std::string_view head_;
-  std::set<std::pair<std::size_t, std::size_t>> seen_; ///< leads nowhere
+  std::set<std::pair<std::size_t, std::size_t>> seen_; ///< dead ends
   int parses_left_ = 500;
 };
 
@@ -882,7 +883,7 @@ std::vector<std::string> defined_names(const Source& source, Language language) 
 }
 
 bool says_the_same(std::string_view said, std::string_view written, const Reading& reading) {
-  if (said.starts_with("> ")) // where lines are typed
+  if (said.starts_with("> ")) // an interactive prompt
     said.remove_prefix(2);
   const auto from = split(said, reading.language);
   Tokens tokens;
@@ -899,7 +900,7 @@ bool says_the_same(std::string_view said, std::string_view written, const Readin
     append(tokens, line.tokens);
     comment += line.comment;
   }
-  // Another number is another line; where no statement is left, none has to be kept.
+  // Another number is another line. If no statement is left, no number has to be kept.
   if ((trim(head) != trim(from.head) && !tokens.empty()) ||
       notation::words_of(comment) != notation::words_of(from.comment) ||
       from.tokens.size() > most_tokens || tokens.size() > 2 * most_tokens)

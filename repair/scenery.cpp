@@ -176,7 +176,7 @@ std::string Scenery::number_of(std::string_view name) const {
     rest.remove_prefix(std::min(rest.find_first_not_of("' \t"), rest.size()));
     if (rest.size() > name.size() && equal_words(rest.substr(0, name.size()), name) &&
         rest[name.size()] == ':') {
-      // A label alone on its line stands for the line below, which stays when it is left out.
+      // A label alone on its line belongs to the line below, which stays if the label is removed.
       rest.remove_prefix(name.size() + 1);
       const bool alone = parts.tokens.empty() || rest.find_first_not_of(" \t'") == rest.npos;
       const auto below = alone ? number_below(n) : std::string();
@@ -200,7 +200,7 @@ std::string Scenery::number_below(std::uint32_t line) const {
 }
 
 void Scenery::note_jumps(std::uint32_t line, const Tokens& tokens) {
-  bool jumps = false; // a number here is a line
+  bool jumps = false; // a number here is a line number
   bool calls = false;
   for (const auto& token : tokens) {
     const bool begins = token.is("goto") || token.is("gosub");
@@ -274,7 +274,7 @@ void Scenery::note_roll(std::uint32_t line, Tokens tokens) {
 }
 
 std::vector<std::string> Scenery::free_letters() const {
-  // A `next` below that no `for` begins names the variable.
+  // A `next` below without a `for` names the variable.
   std::multiset<std::string> open;
   for (std::uint32_t n = source_.line_count(); n > 0; --n) {
     const auto tokens = split(source_.line(n).substr(0, longest_line), language_).tokens;

@@ -14,10 +14,11 @@
 namespace orb::repair {
 namespace {
 
-class Changes {
+/// Collects the changes of one line. Large because each kind of change has its own member.
+class ChangeCollector {
 public:
-  Changes(const Tokens& line, Language language, std::span<const std::string_view> words,
-          std::span<const std::string_view> names)
+  ChangeCollector(const Tokens& line, Language language, std::span<const std::string_view> words,
+                  std::span<const std::string_view> names)
       : line_(line), language_(language), words_(words), names_(names) {
     for (const auto& token : line)
       open_brackets_ += token.is("[") ? 1 : token.is("]") ? -1 : 0;
@@ -56,7 +57,7 @@ private:
            std::any_of(names_.begin(), names_.end(), same);
   }
 
-  /// Which letters are in a word, a bit for each.
+  /// The set of letters in a word, one bit each.
   static std::uint32_t letters_of(std::string_view word) {
     std::uint32_t all = 0;
     for (const char c : word)
@@ -75,7 +76,7 @@ private:
       for (const auto other : list) {
         if (other.size() < 2 || other.size() > word.text.size() + 2 ||
             word.text.size() > other.size() + 2 ||
-            std::popcount(letters ^ letters_of(other)) > 4) // each change brings two at most
+            std::popcount(letters ^ letters_of(other)) > 4) // each edit changes two at most
           continue;
         const auto distance = edit_distance(word.text, other);
         const auto size = std::max(word.text.size(), other.size());
@@ -89,7 +90,7 @@ private:
       }
   }
 
-  /// Puts a number in place of so many tokens.
+  /// Replaces some tokens by a number.
   void number_instead(std::size_t i, std::string text, std::size_t tokens, int cost) {
     auto changed = line_;
     changed[i].kind = Token::Kind::Number;
@@ -99,7 +100,7 @@ private:
     add(changed, cost);
   }
 
-  /// What may be a number that is written wrongly.
+  /// Proposes numbers for a malformed one.
   void near_number(std::size_t i) {
     const auto& text = line_[i].text;
     const bool number = line_[i].is_number();
@@ -109,7 +110,7 @@ private:
       number_instead(i, text.substr(1), 1, 3); // `x2`: twice
     const auto point = text.find('.');
     constexpr auto of_several = std::to_array<std::string_view>(
-        {"RGB", "goroll", "roll", "fade", "raw", "locate", "data"}); // take several values
+        {"RGB", "goroll", "roll", "fade", "raw", "locate", "data"}); // they take several values
     const bool several = std::any_of(of_several.begin(), of_several.end(),
                                      [&](auto word) { return equal_words(line_[0].text, word); });
     if (number && several && point != std::string::npos && point > 0 && point + 1 < text.size())
@@ -125,7 +126,7 @@ private:
     letters_for_digits(i, number && goes_on);
   }
 
-  /// `40.140` where a comma was meant.
+  /// `40.140` for `40,140`.
   void two_numbers(std::size_t i, std::size_t point) {
     auto changed = line_;
     changed[i].text = line_[i].text.substr(0, point);
@@ -140,7 +141,7 @@ private:
     add(changed, 10);
   }
 
-  /// `1ss`, `20mss`, and what C writes behind a number: `1000UL`.
+  /// `1ss`, `20mss`, and C suffixes: `1000UL`.
   void wrong_ending(std::size_t i) {
     const auto& ending = line_[i + 1].text;
     if (ending.size() > 2 && ending[0] == '_' && is_count(std::string_view(ending).substr(1)))
@@ -157,7 +158,7 @@ private:
       number_instead(i, line_[i].text + unit, 2, 6);
   }
 
-  /// `l00`, `2O0` and `7O0ms`: letters that look like digits; `O` alone.
+  /// `l00`, `2O0` and `7O0ms`: letters that look like digits; a single `O`.
   void letters_for_digits(std::size_t i, bool goes_on) {
     const auto as_digits = [](std::string text) {
       for (auto& c : text)
@@ -183,7 +184,7 @@ private:
       number_instead(i, digits + unit, goes_on ? 2 : 1, 3);
   }
 
-  /// `"7"` and `"500ms"` where a value stands.
+  /// `"7"` and `"500ms"` in place of a value.
   void unquoted(std::size_t i) {
     const auto& token = line_[i];
     if (!token.is_text() || token.text.empty() || line_[0].is("print") || !is_count(token.text))
@@ -193,7 +194,7 @@ private:
     add(changed, 4);
   }
 
-  /// Digits, where there are units perhaps with one: `1s`.
+  /// True for digits, with a unit if the language has units: `1s`.
   bool is_count(std::string_view text) const {
     const auto unit = text.find_first_not_of("0123456789");
     return unit == std::string_view::npos ||
@@ -226,7 +227,7 @@ private:
     }
   }
 
-  /// The word of the language that `left` is, or nearly is in front of a number: `dleay2s`.
+  /// The word of the language equal to `left`, or close to it before a number: `dleay2s`.
   std::string_view statement_called(std::string_view left, bool nearly) const {
     for (const auto one : words_)
       if (equal_words(one, left))
@@ -257,7 +258,7 @@ private:
       joined_by(between, i);
   }
 
-  /// `sub wait for shake`, where other lines call it `wait_for_shake`.
+  /// `sub wait for shake` if other lines call it `wait_for_shake`.
   void joined_by(std::string_view between, std::size_t first) {
     constexpr std::size_t most_words = 4;
     const auto end = std::min(line_.size(), first + most_words);
@@ -275,7 +276,7 @@ private:
     }
   }
 
-  /// A word of the language or of other lines; empty where it is none.
+  /// The spelling of a word of the language or of other lines; empty if it is unknown.
   std::string_view spelling_of(std::string_view word) const {
     for (const auto& list : {words_, names_})
       for (const auto one : list)
@@ -287,16 +288,16 @@ private:
   void left_out(std::size_t i) {
     const auto& token = line_[i];
     const bool twice = i > 0 && !token.is_number() && line_[i - 1].text == token.text;
-    constexpr std::string_view idle = "()[],;:.'#@\\_"; // signs that compute nothing
-    constexpr std::string_view kinds = "%!&";           // behind the name of a number: its kind
+    constexpr std::string_view idle = "()[],;:.'#@\\_"; // signs without a computation
+    constexpr std::string_view kinds = "%!&";           // type suffixes of a name
     const bool one = token.kind == Token::Kind::Sign && token.text.size() == 1;
     const bool is_kind = one && i > 0 && line_[i - 1].is_word() && !token.gap &&
                          (kinds.find(token.text[0]) != std::string_view::npos ||
-                          (token.is("$") && !line_[0].is("print"))); // which prints a text
+                          (token.is("$") && !line_[0].is("print"))); // prints as a text
     const bool indexes = token.is("[") && i > 0 && line_[i - 1].is_word() && !token.gap;
     const bool is_idle =
         (one && !indexes && idle.find(token.text[0]) != std::string_view::npos) || is_kind;
-    // Fewer values are not what was meant: a comma goes where no value follows it.
+    // Fewer values are never intended: remove a comma only if no value follows it.
     const bool parts_values = token.is(",") && i > 1 && i + 1 < line_.size() &&
                               (line_[i + 1].is_number() || line_[i + 1].text.size() == 1) &&
                               !line_[i - 1].is(",") && !line_[i + 1].is(",") &&
@@ -393,7 +394,7 @@ private:
       insert(at, "]", at == line_.size() ? 8 : 11, Token::Kind::Sign);
   }
 
-  /// Whether what is computed next takes a sum in parentheses that nothing closes: `(H + 90 % 360`.
+  /// True if the next operator needs an unclosed sum in parentheses: `(H + 90 % 360`.
   bool ends_sum(std::size_t at) const {
     if (at == line_.size() || !(line_[at].is("%") || line_[at].is("*") || line_[at].is("/")))
       return false;
@@ -408,7 +409,7 @@ private:
     return sum && closed < 0;
   }
 
-  /// Whether a `=` may be missing: an assignment and a `for` have one, a condition has its own.
+  /// True if a `=` may be missing: an assignment and a `for` have one, a condition has its own.
   bool wants_relation(std::size_t at) const {
     const bool condition =
         line_[0].is("if") || line_[0].is("while") || line_[0].is("until") || line_[0].is("elseif");
@@ -417,14 +418,14 @@ private:
     return condition || !related;
   }
 
-  /// `> 10 LEDC 1`: copied from where lines are typed.
+  /// `> 10 LEDC 1`: copied from an interactive prompt.
   void prompt() {
     if (language_ == Language::Basic && line_.size() > 2 && line_[0].is(">") &&
         line_[1].is_number())
       add(slice(line_, 1), 1);
   }
 
-  /// `print hello"`: the quote that opens is missing, or the one that closes is too many.
+  /// `print hello"`: the opening quote is missing, or the closing one is extra.
   void closed() {
     if (line_.empty() || !line_.back().is_text() || line_.back().closed ||
         !line_.back().text.empty())
@@ -455,7 +456,7 @@ private:
 std::vector<Candidate> changes(const Tokens& line, Language language,
                                std::span<const std::string_view> words,
                                std::span<const std::string_view> names) {
-  return Changes(line, language, words, names).all();
+  return ChangeCollector(line, language, words, names).all();
 }
 
 } // namespace orb::repair

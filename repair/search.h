@@ -10,9 +10,9 @@
 
 namespace orb::repair {
 
-/// What one change makes of a line, the cheapest first: a word that is near another one, words
-/// joined and split, a sign too much, too few or another one, neighbours swapped. Never a number
-/// that was not written, and none left out. `names` are words of the text itself.
+/// Makes single changes to a line, the cheapest first: a similar word, words joined or split, a
+/// sign added, removed or replaced, neighbours swapped. Never adds or drops a number. `names` are
+/// words of the text itself.
 std::vector<Candidate> changes(const Tokens& line, Language language,
                                std::span<const std::string_view> words,
                                std::span<const std::string_view> names);

@@ -6,10 +6,10 @@
 #include <string>
 #include <string_view>
 
-// Quotes, brackets, operators and numbers as other languages write them.
+// Quotes, brackets, operators and numbers of other languages.
 
 namespace orb::repair {
-/// `"touches no wall'`: a text that another quote closes.
+/// `"touches no wall'`: a text closed by another quote.
 void close_text(Line& line) {
   if (line.tokens.empty() || !line.tokens.back().is_text() || line.tokens.back().closed)
     return;
@@ -21,7 +21,7 @@ void close_text(Line& line) {
   text.closed = true;
 }
 
-/// `make "side :side + 5` and `setpc "blue`: the words of Logo have one quote.
+/// `make "side :side + 5` and `setpc "blue`: Logo words have only an opening quote.
 void words_with_one_quote(Line& line) {
   auto& tokens = line.tokens;
   const auto size = tokens.size();
@@ -35,7 +35,7 @@ void words_with_one_quote(Line& line) {
   append(tokens, rest);
 }
 
-/// `if :n > 3`: values of Logo.
+/// `if :n > 3`: Logo values.
 void drop_colons(Line& line) {
   auto& tokens = line.tokens;
   for (std::size_t i = 1; i + 1 < tokens.size(); ++i) {
@@ -50,7 +50,7 @@ void drop_colons(Line& line) {
   }
 }
 
-/// Operators of C and its children, which every such line has.
+/// Operators of the C family.
 void plain_signs(Line& line) {
   for (std::size_t i = 2; i + 1 < line.tokens.size(); ++i) { // `60 plus tilt`
     auto& token = line.tokens[i];
@@ -74,7 +74,8 @@ void plain_signs(Line& line) {
     }
 }
 
-/// `sub drive(time as integer)` and `sub bar(length in steps)`: parameters are numbers.
+/// `sub drive(time as integer)` and `sub bar(length in steps)`: parameters are numbers, so the
+/// types are dropped.
 void drop_types(Line& line) {
   auto& tokens = line.tokens;
   if (tokens.size() < 6 || !holds("sub function def to", tokens[0].text) || !tokens[2].is("("))
@@ -90,7 +91,7 @@ void drop_types(Line& line) {
   }
 }
 
-/// `for B = 1 to 1.000`: thousands, as half of Europe parts them.
+/// `for B = 1 to 1.000`: a thousands separator, common in Europe.
 void read_thousands(Line& line) {
   constexpr std::string_view thousand = ".000";
   auto& tokens = line.tokens;
@@ -117,13 +118,13 @@ void index_arrays(Line& line) {
   }
 }
 
-/// `]` alone, beside the key of `}`.
+/// A single `]`, next to the key of `}`.
 void close_block(Line& line) {
   if (line.tokens.size() == 1 && line.tokens[0].is("]"))
     line.tokens[0].text = "}";
 }
 
-/// `if open = "true"`: what is true needs no comparison, where the language takes a bare name.
+/// `if open = "true"`: a truth value needs no comparison if the language takes a bare name.
 void compare_with_true(Line& line) {
   auto& tokens = line.tokens;
   const bool test = line.language() == Language::Test;
@@ -141,7 +142,7 @@ void compare_with_true(Line& line) {
   }
 }
 
-/// `A% = B%`: signs behind a variable that tell its type elsewhere.
+/// `A% = B%`: type suffixes of variables.
 void drop_sigils(Line& line) {
   auto& tokens = line.tokens;
   const auto names_variable = [&](const Token& token) {
@@ -168,7 +169,7 @@ void drop_sigils(Line& line) {
   }
 }
 
-/// Numbers without `0x`.
+/// Converts `0x` numbers to decimal.
 void decimal_numbers(Line& line) {
   for (auto& token : line.tokens)
     if (token.is_number() && token.text.size() > 2 && to_lower(token.text[1]) == 'x')
@@ -176,7 +177,7 @@ void decimal_numbers(Line& line) {
         token.text = std::to_string(*value);
 }
 
-/// `warned = "False"`: what is true is 1.
+/// `warned = "False"`: true is 1.
 void truths(Line& line) {
   auto& tokens = line.tokens;
   if (tokens.size() == 2 && holds("while until if", tokens[0].text) && tokens[1].is_text() &&

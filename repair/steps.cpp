@@ -16,8 +16,7 @@
 #include <span>
 #include <utility>
 
-// What is proposed for a line, a step after the other: what says most about what was meant comes
-// first, guesses come last.
+// The steps that propose lines: the most informative come first, guesses last.
 
 namespace orb::repair {
 namespace {
@@ -27,11 +26,11 @@ constexpr std::size_t few_states = 40;
 constexpr int most_candidates = 1000; // of one line, by changes
 constexpr int deepest = 6;            // rows in one line
 constexpr int surely = 6;             // the cost of one letter of a word
-constexpr int slip = 9;               // the most that one slip of the hand costs
+constexpr int slip = 9;               // the maximum cost of one typo
 constexpr int any_cost = 1000;
-constexpr int clearly = 4; // by so much the best change is cheaper than the next
+constexpr int clearly = 4; // margin of the best change over the next
 
-/// Whether later steps may do better.
+/// Tells if later steps may improve the result.
 enum class Next : std::uint8_t { GoOn, Enough };
 
 Next enough_if(bool enough) {
@@ -48,19 +47,19 @@ const Token& first_of(const Line& line) {
   return line.tokens.empty() ? none : line.tokens[0];
 }
 
-/// Whether a text can only be the name of a file.
+/// True if a text can only be a file name.
 bool names_a_file(std::string_view text) {
   return text.find(' ') == std::string_view::npos && text.find('.') != std::string_view::npos;
 }
 
-/// Whether lines begin with the word that the line begins with.
+/// True if the proposal begins with the same word as the line.
 bool begins_alike(const Line& line, std::string_view lines) {
   const auto& word = line.tokens.front().text;
   const auto begin = lines.substr(std::min(line.head.size(), lines.size()));
   return begin.starts_with(word) && begin.substr(word.size()).starts_with(' ');
 }
 
-/// What the language makes of the line's values; true when that cannot be better.
+/// Proposes the values in the documented order; returns true if nothing can be better.
 bool in_order(Trial& trial, const Tokens& tokens) {
   const auto& rephrase = trial.line().dialect->rephrase;
   if (!rephrase || tokens.empty())
@@ -75,18 +74,18 @@ bool in_order(Trial& trial, const Tokens& tokens) {
   return false;
 }
 
-/// Applies rows until the line is one.
+/// Applies rows until one gives a valid line.
 void apply_rows(Trial& trial, const std::string& statement, Bounds bounds) {
   trial.explore_rows(statement, bounds, trial.seen(), [&](const Candidate& one) {
     return trial.offer(one) || in_order(trial, tokens_of(one.text, trial.line().language()));
   });
 }
 
-/// What the finding's own fix makes of the line, as far as the step before asked.
+/// The result of the finding's own fix, if an earlier step computed it.
 struct OwnFix {
   std::optional<std::string> line;
   bool safe = false;
-  bool leaves_out = false; ///< a word that another language needs, and the line says more
+  bool leaves_out = false; ///< a word that another language needs, although the line says more
 };
 
 OwnFix own_fix(const Trial& trial) {
@@ -103,8 +102,7 @@ OwnFix own_fix(const Trial& trial) {
   return own;
 }
 
-/// Whether the line calls a sub of the program, or returns: what else people call so does not
-/// count.
+/// True if the line calls a sub of the program, or returns: idioms do not apply then.
 bool calls(const Line& line) {
   return (!line.sub.empty() && first_of(line).text == line.sub) ||
          (line.tokens.size() == 1 && line.tokens[0].is("return"));
@@ -116,7 +114,7 @@ bool is_known_first(const Line& line) {
 
 // ---- the steps
 
-/// `0 200 255` in a macro: values whose command was forgotten.
+/// `0 200 255` in a macro: values without their command.
 Next forgotten_command(Trial& trial) {
   const auto& line = trial.line();
   const auto& tokens = line.tokens;
@@ -135,13 +133,13 @@ Next forgotten_command(Trial& trial) {
   return enough_if(trial.found());
 }
 
-/// Two numbers: of what?
+/// Two bare numbers: their meaning is unknown.
 Next numbers_alone(Trial& trial) {
   const auto& tokens = trial.line().tokens;
   return enough_if(tokens.size() > 1 && tokens[0].is_number() && tokens[1].is_number());
 }
 
-/// `end` in a macro, for what ends its block.
+/// `end` in a macro for the end of its block.
 Next bare_end(Trial& trial) {
   const auto& line = trial.line();
   if (line.tokens.size() == 1 && !line.around.closer.empty() &&
@@ -163,7 +161,7 @@ Next test_title(Trial& trial) {
   return Next::GoOn;
 }
 
-/// `RGB red delay 1s`: statements behind each other, each on a line of its own.
+/// `RGB red delay 1s`: several statements, one line each.
 Next one_by_one(Trial& trial) {
   const auto& line = trial.line();
   const auto& tokens = line.tokens;
@@ -195,7 +193,7 @@ Next one_by_one(Trial& trial) {
   return enough_if(trial.found());
 }
 
-/// The same words in another order say what was meant, whatever else is told of the line.
+/// The same words in another order are the best proposal, whatever else the finding says.
 Next other_order(Trial& trial) {
   const auto& line = trial.line();
   return enough_if(in_order(trial, line.tokens) ||
@@ -218,7 +216,7 @@ Next one_bracket(Trial& trial) {
   return Next::GoOn;
 }
 
-/// `avanti i` where a loop counts with `i`.
+/// `avanti i` in a loop with the counter `i`.
 Next foreign_next(Trial& trial) {
   const auto& line = trial.line();
   const auto& tokens = line.tokens;
@@ -228,8 +226,8 @@ Next foreign_next(Trial& trial) {
   return Next::GoOn;
 }
 
-/// `drive 0, 1s`, `call drive(0, 1s)` and `wait for shake` where the program has a sub of that
-/// name, whatever else people call so.
+/// `drive 0, 1s`, `call drive(0, 1s)` and `wait for shake` if the program has a sub of that name,
+/// which takes precedence over idioms.
 Next own_call(Trial& trial) {
   const auto& line = trial.line();
   const auto& tokens = line.tokens;
@@ -249,8 +247,8 @@ Next own_call(Trial& trial) {
   return Next::GoOn;
 }
 
-/// `colore(i)` where there is a `colour`; `trazo(90)` where nobody calls the only `stroke` yet, or
-/// only `stroke` takes one value.
+/// `colore(i)` if there is a `colour`; `trazo(90)` if `stroke` is the only uncalled sub, or the
+/// only one with one value.
 Next own_sub(Trial& trial) {
   const auto& line = trial.line();
   const auto& tokens = line.tokens;
@@ -268,12 +266,12 @@ Next own_sub(Trial& trial) {
   return Next::GoOn;
 }
 
-/// Which value of a call is missing is said, whatever others call so.
+/// The finding names the missing value of a call, which takes precedence over idioms.
 Next missing_value(Trial& trial) {
   return enough_if(calls(trial.line()) && trial.finding().rule->trouble == Trouble::ArgumentCount);
 }
 
-/// Rows that are several lines here: they say more than any one line.
+/// Rows with several lines say more than any single line.
 Next several_lines(Trial& trial) {
   const auto own = own_fix(trial);
   if (calls(trial.line()) || (own.line && !own.leaves_out && own.safe))
@@ -306,7 +304,7 @@ Next by_fix_of_name(Trial& trial) {
              : Next::GoOn;
 }
 
-/// `#end while`: a comment that is none.
+/// `#end while`: not a comment.
 Next remark(Trial& trial) {
   const auto& line = trial.line();
   if (line.tokens.empty() && !line.comment.empty())
@@ -314,7 +312,7 @@ Next remark(Trial& trial) {
   return Next::GoOn;
 }
 
-/// The line as it was read.
+/// The normalised line.
 Next as_read(Trial& trial) {
   const auto& line = trial.line();
   const bool filled = std::any_of(line.tokens.begin(), line.tokens.end(), [](const Token& token) {
@@ -326,14 +324,14 @@ Next as_read(Trial& trial) {
   return Next::GoOn;
 }
 
-/// What the words are about.
+/// A guess from the topics of the words.
 Next by_gist(Trial& trial) {
   for (auto& one : gist_of(trial.line().tokens, trial.line().around))
     trial.offer(guess(std::move(one)));
   return Next::GoOn;
 }
 
-/// What small changes make of a line; two where it is not clear which was meant.
+/// Small changes to a line; two proposals if the intent is ambiguous.
 class Nearest {
 public:
   Nearest(Trial& trial, int most) : trial_(trial), line_(trial.line()), most_(most) {}
@@ -406,12 +404,12 @@ private:
 
 void by_changes(Trial& trial, int most) {
   const auto& line = trial.line();
-  // Of a long name: which is to become a letter, no change of this line alone mends that.
+  // No change of this line alone can repair a long name, which must become a letter.
   if (line.language() != Language::Basic || !holds_name(line.tokens, line.around))
     Nearest(trial, most).find();
 }
 
-/// Slips of the hand in a word.
+/// Typos in a word.
 Next by_letters(Trial& trial) {
   if (!is_known_first(trial.line()))
     by_changes(trial, surely);
@@ -423,7 +421,7 @@ Next by_all_changes(Trial& trial) {
   return Next::GoOn;
 }
 
-/// What the words are about, where the first one is not known elsewhere.
+/// A guess from the topics, if the first word is otherwise unknown.
 Next by_new_gist(Trial& trial) {
   return is_known_first(trial.line()) ? Next::GoOn : by_gist(trial);
 }
@@ -452,7 +450,7 @@ Next words_left_out(Trial& trial) {
   return Next::GoOn;
 }
 
-/// `Down = 255 - Up` in a program that uses `D` and `U`; `13o delay 500` is `130 delay 500`.
+/// `Down = 255 - Up` in a program with `D` and `U`; `13o delay 500` is `130 delay 500`.
 Next by_initials(Trial& trial) {
   const auto& line = trial.line();
   auto tokens = line.tokens;
@@ -466,7 +464,7 @@ Next by_initials(Trial& trial) {
         (tokens[i - 1].is_number() || tokens[i - 1].is_text() || tokens[i - 1].text.size() == 1) &&
         tokens[i - 1].kind != Token::Kind::Sign;
     if (after_value || is_called("", token.text))
-      return Next::GoOn; // `print 3 throws`: a word more, no value
+      return Next::GoOn; // `print 3 throws`: an extra word, not a value
     const std::string initial(1, to_upper(token.text[0]));
     if (!is_letter(initial[0]) ||
         std::find(line.letters.begin(), line.letters.end(), initial) == line.letters.end())
@@ -479,7 +477,7 @@ Next by_initials(Trial& trial) {
   return Next::GoOn;
 }
 
-/// A statement that has words before or behind it that nobody knows: `well, goto 20 again`.
+/// A statement between unknown words: `well, goto 20 again`.
 Next among_unknown(Trial& trial) {
   constexpr std::size_t most = 3; // such words on either side
   const auto& line = trial.line();
@@ -488,7 +486,7 @@ Next among_unknown(Trial& trial) {
     if (front > 0 && !line.is_unknown(all[front - 1]))
       return Next::GoOn;
     const bool orders_words =
-        line.dialect->rephrase != nullptr; // what stands behind finds its place
+        line.dialect->rephrase != nullptr; // it puts the words that follow in order
     if (orders_words && !line.knows(all[front].text))
       continue;
     const auto shortest =
@@ -504,7 +502,7 @@ Next among_unknown(Trial& trial) {
       const bool own = rest.size() > 2 && rest[1].is_word() && rest[0].is_word() &&
                        !line.is_foreign(rest[0].text);
       if (rest[0].text.size() == 1 || !(own || line.knows(rest[0].text)))
-        continue; // what is left is no statement
+        continue; // the rest is not a statement
       apply_rows(trial, join(rest), {2, trial.seen().size() + few_states});
       if (trial.found()) {
         trial.best()->sure = false;
@@ -515,7 +513,7 @@ Next among_unknown(Trial& trial) {
   return Next::GoOn;
 }
 
-/// Units that are counted nowhere, each alone: `score += 5 points`, `if s > longest steps then`.
+/// Removes each unknown unit alone: `score += 5 points`, `if s > longest steps then`.
 Next without_unit(Trial& trial) {
   const auto& line = trial.line();
   const auto& all = line.tokens;
@@ -528,9 +526,9 @@ Next without_unit(Trial& trial) {
     const bool time = all[i].is_word() && milliseconds_of(all[i].text) > 0;
     const bool compared = i > 1 && all[i - 2].is_relation() && !all[1].is("=");
     const bool plain = all[i - 1].is_word() || compared ||
-                       all[i - 1].is("0"); // else which unit was meant is not clear
+                       all[i - 1].is("0"); // for other numbers the unit would be ambiguous
     if (all[i].is("%") && all[i - 1].is_number() && !all[i - 1].is("0"))
-      continue; // of what?
+      continue; // the noun is unknown
     if (!operand(i - 1) || !(time ? plain : unit || line.is_unknown(all[i])))
       continue;
     auto less = all;
@@ -541,7 +539,7 @@ Next without_unit(Trial& trial) {
   return Next::GoOn;
 }
 
-/// All units at once: `90deg,70%,1s`.
+/// Removes all units: `90deg,70%,1s`.
 Next without_units(Trial& trial) {
   const auto& line = trial.line();
   const auto& all = line.tokens;
@@ -564,7 +562,7 @@ Next without_units(Trial& trial) {
   return Next::GoOn;
 }
 
-/// Names of values: `leg(towards=90)`.
+/// Removes names of values: `leg(towards=90)`.
 Next without_names(Trial& trial) {
   const auto& all = trial.line().tokens;
   auto unnamed = all;
@@ -580,11 +578,12 @@ Next without_names(Trial& trial) {
   return Next::GoOn;
 }
 
-/// A quantity behind a statement that takes none: `flicker 12 times`, `expect reach goal 1m`.
+/// Removes a quantity after a statement that takes none: `flicker 12 times`, `expect reach goal
+/// 1m`.
 Next without_quantity(Trial& trial) {
   const auto& all = trial.line().tokens;
   if (has_token(all, "print"))
-    return Next::GoOn; // a number may be how often
+    return Next::GoOn; // a number may be a count
   const auto size = all.size();
   for (const std::size_t count : {1U, 2U})
     if (size > count && all[size - count].is_number() && !all[1].is("=") &&
@@ -594,8 +593,8 @@ Next without_quantity(Trial& trial) {
   return Next::GoOn;
 }
 
-/// The line as it would be if a time that was taken for seconds was one in milliseconds: from some
-/// number on, both are likely.
+/// Adds a proposal in milliseconds if a time was read as seconds: for larger numbers both are
+/// likely.
 Next in_milliseconds(Trial& trial) {
   constexpr int few = 5;
   constexpr int half_second = 30; // sixtieths
@@ -632,15 +631,15 @@ Next in_milliseconds(Trial& trial) {
   return Next::GoOn;
 }
 
-/// When a step is taken.
+/// The condition for a step.
 enum class When : std::uint8_t {
   NothingFound, ///< no line yet
-  Unsettled,    ///< or one about which something else is said
+  Unsettled,    ///< or a line that still has another finding
   Always,
 };
 
 struct Step {
-  std::string_view origin; ///< as --explain-repairs names it
+  std::string_view origin; ///< its name in --explain-repairs
   std::uint8_t languages;  ///< a bit for each Language
   When when;
   Next (*propose)(Trial&);

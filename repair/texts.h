@@ -2,7 +2,7 @@
 
 #include "base/texts.h"
 
-/// What is said beside and around the lines to write: `texts::WholeNumbers()`.
+/// The messages beside and around replacement lines: `texts::WholeNumbers()`.
 namespace orb::repair::texts {
 
 using namespace orb::texts;

@@ -16,7 +16,7 @@ struct Written {
   std::string_view means;
 };
 
-/// Signs of several bytes that stand for one of a keyboard.
+/// Multi-byte signs and their keyboard equivalents.
 constexpr auto drawn = std::to_array<Written>(
     {{"×", "*"},  {"÷", "/"},  {"≤", "<="}, {"≥", ">="}, {"≠", "!="}, {"–", "-"},   {"−", "-"},
      {"·", "*"},  {"←", "="},  {"→", "->"}, {"…", ".."}, {"±", "+-"}, {"°", "deg"}, {"，", ","},
@@ -29,9 +29,9 @@ constexpr auto long_signs = std::to_array<std::string_view>(
      "+=",  "-=",  "*=",  "/=", "%=", "=+", "=-", "++", "--", "&&", "||",
      ":=",  "<-",  "**",  "//", "->", "<<", ">>", "..", "~="});
 
-/// Whether a sign that is no byte of ASCII may begin here.
+/// True if a sign outside ASCII may begin with this byte.
 bool may_draw(char c) {
-  constexpr unsigned char first = 0xC2; // none begins below
+  constexpr unsigned char first = 0xC2; // the lowest first byte
   return static_cast<unsigned char>(c) >= first;
 }
 bool may_quote(char c) {
@@ -60,7 +60,7 @@ public:
 
   Tokens rest() {
     Tokens tokens;
-    tokens.reserve(text_.size() / 3); // words are longer, with their blanks; signs shorter
+    tokens.reserve(text_.size() / 3); // words and their spaces are longer, signs shorter
     while (true) {
       const auto before = at_;
       blanks();
@@ -76,7 +76,7 @@ public:
   }
 
 private:
-  /// The bytes of a sign that looks like a blank, or like nothing; 0 where none stands here.
+  /// The size of a character that looks like a space or is invisible; 0 if there is none here.
   std::size_t special_blank() const {
     constexpr auto special = std::to_array<std::string_view>(
         {"\u00A0", "\u00AD", "\u2002", "\u2003", "\u2009", "\u200B", "\u200C", "\u200D", "\u202F",
@@ -150,7 +150,7 @@ private:
            at_ + 1 < text_.size() && is_digit(text_[at_ + 1]);
   }
 
-  /// `A // 2`: a division, not a remark.
+  /// `A // 2`: a division, not a comment.
   bool divides(const Tokens& tokens) const {
     const auto next = text_.find_first_not_of(" \t", at_ + 2);
     if (tokens.size() < 2 || next == std::string_view::npos)
@@ -159,14 +159,14 @@ private:
         std::count_if(tokens.begin(), tokens.end(), [](const Token& one) { return one.is("("); });
     if (opened >
         std::count_if(tokens.begin(), tokens.end(), [](const Token& one) { return one.is(")"); }))
-      return true; // what closes it follows
+      return true; // its partner follows
     const auto end = text_.find_first_of(" \t),", next);
     const auto word = text_.substr(next, end == std::string_view::npos ? end : end - next);
     return std::all_of(word.begin(), word.end(), is_digit) ||
            (word.size() == 1 && end == std::string_view::npos);
   }
 
-  /// Whether a value is to follow: `, #M` and `id=#28` are no remarks.
+  /// True if a value must follow: `, #M` and `id=#28` are not comments.
   static bool begins_value(const Tokens& tokens) {
     return !tokens.empty() && (tokens.back().is(",") || tokens.back().is("="));
   }
@@ -181,7 +181,7 @@ private:
            (at_ + 1 + digits == text_.size() || !is_part(text_[at_ + 1 + digits]));
   }
 
-  /// A colour that cannot be a number: with letters, or of six digits.
+  /// True for a colour that cannot be a number: with letters, or of six digits.
   bool long_colour_here() const {
     constexpr std::size_t short_ = 3;
     const auto end = text_.find_first_not_of("0123456789", at_ + 1);
@@ -189,7 +189,7 @@ private:
     return colour_here() && digits != short_;
   }
 
-  /// `#90`, as assemblers write numbers; no remark begins so.
+  /// `#90`, an immediate number of assemblers; a comment does not begin like this.
   bool immediate_here(const Tokens& tokens) const {
     const auto digit =
         at_ + (text_.substr(std::min(at_ + 1, text_.size())).starts_with('-') ? 2 : 1);
@@ -199,12 +199,12 @@ private:
            digit < text_.size() && is_digit(text_[digit]) && !long_colour_here();
   }
 
-  /// A `'` that begins a text: another one closes it and what stands before wants a value.
+  /// True for a `'` that begins a text: it is closed later and a value is expected here.
   bool quoted_here(const Tokens& tokens) const {
     const auto close = text_.find('\'', at_ + 1);
     if (language_ == Language::Test &&
         text_.find_first_of("'\"", at_ + 1) != std::string_view::npos)
-      return true; // remarks begin with `#` there
+      return true; // comments begin with `#` there
     if (close == std::string_view::npos || tokens.empty())
       return false;
     const auto& last = tokens.back();
@@ -240,7 +240,7 @@ private:
     token.plain = *quote == "\"";
     at_ = token.closed ? end + width : text_.size();
     if (*quote == "«")
-      token.text = trim(std::string(token.text)); // French ones stand apart
+      token.text = trim(std::string(token.text)); // French quotes have inner spaces
     if (!token.closed)
       while (!token.text.empty() && is_blank(token.text.back()))
         token.text.pop_back();
@@ -289,7 +289,7 @@ private:
     if (is_drawn())
       return false;
     const auto begin = at_++;
-    constexpr std::string_view until = "jusqu'"; // the one word with such a sign
+    constexpr std::string_view until = "jusqu'"; // the only word with such a sign
     if (text_.substr(begin).starts_with(until))
       at_ += until.size() - 1;
     while (at_ < text_.size() && (is_part(text_[at_]) || is_utf8_tail(text_[at_])) && !is_drawn() &&

@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
-// A line of any of the languages, split the way a person reads it: whatever was written, and
-// without knowing which words there are.
+// Splits a line of any language as a person would read it. Accepts any input and knows no
+// vocabulary.
 
 namespace orb::repair {
 
@@ -15,68 +15,68 @@ enum class Language : std::uint8_t { Basic, Structured, Macro, Test };
 
 struct Token {
   enum class Kind : std::uint8_t {
-    Word,   ///< letters, digits and `_`; letters of other alphabets belong to it
-    Number, ///< digits, perhaps with a point; `0x1F`
+    Word,   ///< letters, digits and `_`, including letters of other alphabets
+    Number, ///< digits, optionally with a point; `0x1F`
     Text,   ///< without its quotes
     Colour, ///< `#FF8000`
     Sign,   ///< one operator or bracket: `<=` is one
   };
   Kind kind = Kind::Sign;
   std::string text;
-  bool gap = false;     ///< a blank stands before it
-  bool closed = true;   ///< of a Text: its closing quote is there
-  bool plain = true;    ///< of a Text: quoted with `"`
-  std::uint32_t at = 0; ///< where it begins in the line
+  bool gap = false;     ///< preceded by a space
+  bool closed = true;   ///< for a Text: it has its closing quote
+  bool plain = true;    ///< for a Text: quoted with `"`
+  std::uint32_t at = 0; ///< its offset in the line
 
   bool is(std::string_view sign) const { return kind != Kind::Text && text == sign; }
   bool is_word() const { return kind == Kind::Word; }
   bool is_text() const { return kind == Kind::Text; }
   bool is_number() const { return kind == Kind::Number; }
-  bool is_relation() const; ///< as any language writes them
+  bool is_relation() const; ///< in any language
 };
 
 using Tokens = std::vector<Token>;
 
-/// Lines with more of them are not looked at.
+/// Lines with more tokens are skipped.
 inline constexpr std::size_t most_tokens = 64;
 
 /// A line in its parts.
 struct SplitLine {
-  std::string head; ///< blanks, the line number and the blanks after it
+  std::string head; ///< leading spaces, the line number and the spaces after it
   Tokens tokens;
-  std::string comment; ///< with its sign, as the language writes it; empty without one
+  std::string comment; ///< with its sign in the notation of the language; empty if there is none
 };
 
-/// Splits a line (without its end). Comments of other languages (`//`, `#`, `REM`, `--`, `/* */`)
-/// are comments; so is text in any quotes a text.
+/// Splits a line (without its line ending). Recognizes comments of other languages (`//`, `#`,
+/// `REM`, `--`, `/* */`) and texts in any quotes.
 SplitLine split(std::string_view line, Language language);
 
-/// Tokens of a part of a line: no number in front, no comment behind.
+/// Splits a part of a line, without a number or a comment.
 Tokens tokens_of(std::string_view text, Language language);
 
-/// The line again; tokens are parted by a blank where they say so or must be.
+/// Joins a split line; puts a space where a token has a gap or needs one.
 std::string join(const SplitLine& line);
 std::string join(const Tokens& tokens);
 
-/// Whether one of them is that word or sign.
+/// True if one of the tokens is this word or sign.
 bool has_token(const Tokens& tokens, std::string_view text);
 
-/// The tokens from `begin` to before `end`, as far as there are some.
+/// The tokens from `begin` up to `end` (exclusive), clipped to the line.
 Tokens slice(const Tokens& tokens, std::size_t begin, std::size_t end = SIZE_MAX);
 
-/// Where the bracket ends that the token at `open` opens; the number of tokens where it does not.
+/// The closing bracket for the token at `open`; the number of tokens if there is none.
 std::size_t close_of(const Tokens& tokens, std::size_t open);
 
-/// A word with a blank before it.
+/// A word preceded by a space.
 Token word(std::string_view text);
 
-/// Takes tokens out; what follows has the blank that stood before them.
+/// Removes tokens; the next token inherits their leading space.
 void take_out(Tokens& tokens, std::size_t at, std::size_t count);
 
-/// Puts tokens behind others.
+/// Appends tokens.
 void append(Tokens& to, const Tokens& tokens);
 
-/// The words in a word, in small letters: `setRoll` and `set_roll` are `set` and `roll`.
+/// Splits an identifier into lower-case words: `setRoll` and `set_roll` give `set` and `roll`.
 std::vector<std::string> parts_of(std::string_view word);
 
 } // namespace orb::repair

@@ -10,10 +10,10 @@
 namespace orb::repair {
 namespace {
 
-constexpr std::size_t states_of_several = 40; // of one line, by rows that take several
+constexpr std::size_t states_of_several = 40; // of one line, by rows with several lines
 constexpr std::uint32_t usual_step = 10;      // of line numbers
 
-/// Errors that no fix mends by itself.
+/// Errors without a safe fix of their own.
 std::size_t lasting_errors(const std::vector<Diagnostic>& findings) {
   return static_cast<std::size_t>(
       std::count_if(findings.begin(), findings.end(), [](const Diagnostic& one) {
@@ -93,16 +93,16 @@ void Trial::offer_other(const std::string& statement) {
 
 std::optional<Accepted> Trial::look(const Candidate& candidate) {
   const auto& text = candidate.text;
-  const bool goes_on = text.ends_with(',') && !trim(line_.written).ends_with(','); // to nothing
+  // A comma at the end would be new.
+  const bool goes_on = text.ends_with(',') && !trim(line_.written).ends_with(',');
   if (text == line_.written || goes_on || left_ <= 0 || !keeps_parts(line_, text) || !parses(text))
     return std::nullopt;
   --left_;
   auto& noted = considered_.emplace_back(
-      Considered{shown(line_, text), origin_, candidate.cost, Considered::Verdict::Worse});
+      Considered{shown(line_, text), origin_, candidate.cost, Considered::Effect::Worse});
   auto changed = context_.above;
   const auto begin = changed.size();
-  // What jumps to a line that is left out goes on below it, as it would after one that does
-  // nothing.
+  // A jump to a removed line continues below it, as after a line without effect.
   changed += text.empty() && line_.is_target ? line_.head + "A = A" : text;
   changed += context_.below;
   const auto found = line_.dialect->check(changed);
@@ -120,11 +120,11 @@ std::optional<Accepted> Trial::look(const Candidate& candidate) {
   if (errors > errors_)
     return std::nullopt;
   const bool fewer = errors < errors_ || lasting_errors(found) < lasting_;
-  noted.verdict = fewer ? Considered::Verdict::Mends : Considered::Verdict::Parses;
+  noted.effect = fewer ? Considered::Effect::Mends : Considered::Effect::Parses;
   return Accepted{text, candidate.why, fewer, quiet, candidate.sure, open, errors};
 }
 
-/// Whether each line parses by itself.
+/// True if each line parses on its own.
 bool Trial::parses(std::string_view lines) const {
   while (!lines.empty()) {
     const auto end = lines.find_first_of("\r\n");
@@ -135,8 +135,8 @@ bool Trial::parses(std::string_view lines) const {
   return true;
 }
 
-/// Errors but unknown names that this line does not have: while it did not parse, nobody asked for
-/// them.
+/// Counts errors, except unknown names that this line does not contain: they were hidden while it
+/// did not parse.
 std::size_t Trial::errors_of(const std::vector<Diagnostic>& findings, std::string_view text) const {
   const auto has = [&](std::string_view word) {
     return std::any_of(line_.tokens.begin(), line_.tokens.end(),
@@ -149,7 +149,7 @@ std::size_t Trial::errors_of(const std::vector<Diagnostic>& findings, std::strin
       }));
 }
 
-/// Statements, each in the words of the language; nothing where one has none.
+/// Spells statements in the words of the language; nothing if one has no equivalent.
 std::string Trial::spelled(const std::string& statements, int depth) {
   const auto end = statements.find('\n');
   if (end != std::string::npos) {
@@ -172,7 +172,7 @@ std::string Trial::spelled(const std::string& statements, int depth) {
   return found;
 }
 
-/// Statements, each on a line; nothing where there are no numbers for them.
+/// Puts statements on separate lines; nothing if line numbers are missing.
 std::string Trial::several(std::string_view statements) const {
   if (statements.empty())
     return {};
@@ -194,8 +194,8 @@ std::string Trial::several(std::string_view statements) const {
   return text;
 }
 
-/// The same declaration by its other word, where the program may need that: what returns nothing is
-/// a sub, what gives a value a function, what sizes an array a constant. Empty where there is none.
+/// The same declaration with its alternative keyword: a routine without a value is a sub, one with
+/// a value a function, the size of an array a constant. Empty if there is none.
 std::string Trial::declared_otherwise(const std::string& statement) const {
   constexpr std::string_view function = "function ";
   constexpr std::string_view sub = "sub ";
@@ -236,7 +236,7 @@ std::optional<std::string> fixed(const Line& line, const Diagnostic& finding) {
 std::string shown(const Line& line, std::string_view text) {
   auto parts = split(text, line.language());
   if (constexpr std::string_view mark = "\uFEFF"; parts.head.starts_with(mark))
-    parts.head.erase(0, mark.size()); // of a file's encoding
+    parts.head.erase(0, mark.size()); // the byte order mark
   const auto tail = text.substr(text.size() - std::min(text.size(), parts.comment.size()));
   if (!parts.comment.empty() && !parts.tokens.empty() && line.written.ends_with(tail))
     parts.comment.clear();

@@ -16,74 +16,75 @@ namespace orb::repair {
 
 std::size_t errors_in(const std::vector<Diagnostic>& findings);
 
-/// Whether a finding is about a word that means nothing.
+/// True if a finding is about an unknown word.
 bool is_unknown(const Diagnostic& finding);
 bool is_unclosed(const Diagnostic& finding);
 bool is_block_end(const Diagnostic& finding);
 
-/// The text around a line, as far as it has been mended already.
+/// The text around a line, with the repairs made so far.
 struct Context {
   std::string above;
   std::string below; ///< from the end of the line on
 };
 
-/// Lines that were checked in the place of one.
+/// Checked replacement lines for one line.
 struct Accepted {
-  std::string text;                ///< the whole line; several, each with its end but the last
-  const orb::Text* note = nullptr; ///< why it is so; null where nothing is said
-  bool fewer = false;              ///< the text has fewer errors with it
-  bool quiet = false;              ///< nothing else is said about the line
-  bool sure = true;                ///< nothing else can have been meant
+  std::string text;                ///< the whole line; of several, all but the last end with `\n`
+  const orb::Text* note = nullptr; ///< the reason; null: none is shown
+  bool fewer = false;              ///< it reduces the number of errors
+  bool quiet = false;              ///< no other finding on the line
+  bool sure = true;                ///< no other meaning is possible
   bool open = false;               ///< a block still lacks its end, or an end its block
   std::size_t errors = 0;
 
-  /// Whether no other line can do more.
+  /// True if no other line can be better.
   bool settles() const { return quiet && !open; }
 };
 
 /// Checks candidates for one line with the whole text, within a budget, and ranks them: fewer
-/// errors first, then fewer findings, then the one that was offered first.
+/// errors, then fewer findings, then order of proposal. Large because all repairs of a line share
+/// its budget, its best candidates and the record of what was tried.
 class Trial {
 public:
-  /// `before` are the findings about the text as it is; `budget` is how often it may be checked.
+  /// `before` are the findings about the original text; `budget` is the number of checks allowed.
   Trial(const Line& line, const Diagnostic& finding, const Context& context,
         const std::vector<Diagnostic>& before, int budget);
 
   const Line& line() const { return line_; }
   const Diagnostic& finding() const { return finding_; }
-  int left() const { return left_; } ///< checks
+  int left() const { return left_; } ///< remaining checks
 
-  /// Tries statements in the place of the line's; true when none can do better.
+  /// Tries statements in place of the line's; returns true if nothing can be better.
   bool offer(const Candidate& candidate);
-  /// Tries whole lines, and keeps them where they are the best.
+  /// Tries whole lines, and keeps them if they are the best.
   std::optional<Accepted> offer_lines(const Candidate& candidate);
-  /// Tries whole lines that leave fewer errors; the best stays what it was.
+  /// Tries whole lines that reduce the errors; does not change the best.
   std::optional<Accepted> check(const Candidate& candidate);
-  /// Tries a statement as what may have been meant as well.
+  /// Tries a statement as an alternative meaning.
   void offer_other(const std::string& statement);
 
-  /// Tries a declaration by its other word; unsure.
+  /// Tries a declaration with its alternative keyword, marked unsure.
   void offer_declared_otherwise(const std::string& statement);
 
-  /// The step that the candidates are of from now on, as --explain-repairs names it.
+  /// Names the step for the following candidates, as in --explain-repairs.
   void begin(std::string_view origin) { origin_ = origin; }
 
   bool found() const { return best_.has_value(); }
   bool settled() const { return best_ && best_->settles(); }
   std::optional<Accepted>& best() { return best_; }
   std::optional<Accepted>& other() { return other_; }
-  /// The best lines, the likeliest first: one where it is clear, two where it is not.
+  /// The best lines, the likeliest first: one if it is clear, else two.
   std::vector<Accepted> offers() const;
-  /// All that were checked, for people who want to know why.
+  /// All checked candidates, for --explain-repairs.
   std::vector<Considered>& considered() { return considered_; }
 
-  /// The rows that fit a line, one alone first, until `take` is true; what was seen stays known.
+  /// Explores rows for a line, single ones first, until `take` returns true; `seen` is kept.
   void explore_rows(const std::string& statement, Bounds bounds,
                     std::unordered_set<std::string>& seen,
                     const std::function<bool(const Candidate&)>& take);
   std::unordered_set<std::string>& seen() { return seen_; }
 
-  /// Small changes of the line, the cheapest first, and those that were looked at.
+  /// Small changes of the line, the cheapest first, and those already examined.
   struct Changes {
     std::vector<Candidate> near;
     std::unordered_set<std::string> seen;
@@ -102,7 +103,7 @@ private:
   const Diagnostic& finding_;
   const Context& context_;
   std::size_t errors_ = 0;
-  std::size_t lasting_ = 0; ///< errors that no fix mends by itself
+  std::size_t lasting_ = 0; ///< errors without a safe fix
   int left_;
   std::string_view origin_;
   std::optional<Accepted> best_;
@@ -110,16 +111,16 @@ private:
   std::vector<Considered> considered_;
   std::unordered_set<std::string> seen_;
   Changes changes_;
-  Rewrites rewrites_; ///< of this line, and what became of it
+  Rewrites rewrites_; ///< of this line, with their results
 };
 
-/// The lines to write for the line of a trial; empty where nobody can know.
+/// The replacement lines for a trial; empty if the intent is unclear.
 std::vector<Accepted> mend(Trial& trial);
 
-/// The line as its finding's own fix leaves it; nothing where the fix goes beyond the line.
+/// The line after its finding's own fix; nothing if the fix extends beyond the line.
 std::optional<std::string> fixed(const Line& line, const Diagnostic& finding);
 
-/// A line as it is shown: with its comment only where that changes.
+/// A line for display: its comment only if that changes.
 std::string shown(const Line& line, std::string_view text);
 
 } // namespace orb::repair

@@ -13,7 +13,7 @@ struct CalledUnit {
   std::string_view words;
 };
 
-// `m` is a metre, and of times a minute.
+// `m` is a metre, or a minute among times.
 constexpr auto called_units = std::to_array<CalledUnit>({
     {unit::ms,
      "ms msec millis millisec millisecond milliseconds millisekunden milisegundos millisecondes "

@@ -8,13 +8,13 @@
 
 namespace orb::repair {
 
-/// The unit of that measure that a word means, in any of the languages; nothing for other words.
+/// The unit of a measure for a word in any of the languages; nothing if it is not one.
 const Unit* unit_called(std::string_view word, Measure measure);
 
-/// How many milliseconds a unit of time is, in any of the languages; 0 for other words.
+/// The milliseconds in a unit of time, in any of the languages; 0 if it is not one.
 std::int64_t milliseconds_of(std::string_view word);
 
-/// A number with up to three decimal places, in thousandths.
+/// Parses a number with up to three decimals into thousandths.
 std::optional<std::int64_t> thousandths_in(std::string_view number);
 
 } // namespace orb::repair

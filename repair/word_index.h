@@ -10,11 +10,12 @@
 
 namespace orb::repair {
 
-/// Lists of words, told by their numbers: which of them have a word? Case does not count.
+/// An index of lists of words: finds the numbers of the lists that contain a word. Case does not
+/// count.
 class WordIndex {
 public:
   WordIndex() = default;
-  /// Numbers the lists from 0; `words` gives that of a row, a blank between two words.
+  /// Numbers the lists from 0; `words` gives the space-separated words of a row.
   template <typename Rows, typename Words>
   WordIndex(const Rows& rows, Words words) {
     for (std::size_t i = 0; i < std::size(rows); ++i)
@@ -28,7 +29,7 @@ public:
       lists.push_back(list);
   }
 
-  /// In the order in which they were added.
+  /// In insertion order.
   const std::vector<std::size_t>& lists_of(std::string_view word) const {
     static const std::vector<std::size_t> none;
     const auto found = lists_.find(lower(word));

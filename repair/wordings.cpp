@@ -12,11 +12,10 @@
 #include <string>
 #include <string_view>
 
-// Words that say nothing here, and words in another form.
+// Filler words, and inflected words.
 
 namespace orb::repair {
-/// `let the course be 0`, `print "I take" and then N`, `read v cm`: words that no program has
-/// there.
+/// `let the course be 0`, `print "I take" and then N`, `read v cm`: filler words.
 void drop_small_words(Line& line) {
   auto& tokens = line.tokens;
   const auto is_said = [&](const Token& token) { // `print the end`
@@ -50,7 +49,7 @@ void drop_small_words(Line& line) {
     }
 }
 
-/// `Math.max(`, `Program.best(` and `FNmean` where `max`, `best` and `mean` are known.
+/// `Math.max(`, `Program.best(` and `FNmean` if `max`, `best` and `mean` are known.
 void drop_prefixes(Line& line) {
   auto& tokens = line.tokens;
   const auto own = [&](std::string_view word) { return word.size() > 1 && line.has_name(word); };
@@ -96,8 +95,7 @@ void drop_prefixes(Line& line) {
   }
 }
 
-/// `Serial.print`, `Program.End()` and `Ball.Toss(820)` as test files say it: no file has such a
-/// name.
+/// `Serial.print`, `Program.End()`, and `Ball.Toss(820)` in test files: these are not file names.
 void drop_objects(Line& line) {
   auto& tokens = line.tokens;
   if (tokens.empty() || tokens[0].is("program") || tokens[0].is("with") || tokens[0].is("course"))
@@ -124,17 +122,17 @@ void drop_objects(Line& line) {
     tokens.pop_back();
 }
 
-/// Whether a word is one letter away from one of the language.
+/// True if a word is one letter away from a word of the language.
 bool is_misspelt(const Line& line, std::string_view word) {
   const auto near = closest(word, line.dialect->words);
   return near && edit_distance(word, *near) == 1;
 }
 
-/// Words of the tables in the form that stands there: `attendez` for `attendre`.
+/// Replaces inflected words by the form in the tables: `attendez` by `attendre`.
 void other_forms(Line& line) {
   auto& tokens = line.tokens;
   if (!tokens.empty() && (tokens[0].is("print") || tokens[0].is("test")))
-    return; // words without their quotes
+    return; // unquoted words
   for (std::size_t i = 0; i < tokens.size(); ++i) {
     const bool named =
         (i + 1 < tokens.size() && (tokens[i + 1].is("=") || tokens[i + 1].is("."))) ||
@@ -149,7 +147,7 @@ void other_forms(Line& line) {
   }
 }
 
-/// `if it is lit then` of a variable.
+/// `if it is lit then`, where `lit` is a variable.
 void drop_pronoun(Line& line) {
   auto& tokens = line.tokens;
   if (tokens.size() > 3 && holds("if while until", tokens[0].text) && tokens[1].is("it") &&
@@ -157,7 +155,7 @@ void drop_pronoun(Line& line) {
     take_out(tokens, 1, 2);
 }
 
-/// Words in their documented spelling, where the robot looks at case.
+/// Applies the documented spelling where case counts on the robot.
 void documented_spelling(Line& line) {
   const auto& words = line.dialect->words;
   for (auto& token : line.tokens) {
@@ -171,7 +169,7 @@ void documented_spelling(Line& line) {
   }
 }
 
-/// Words that mean what a name of the program means: `Richtung` where there is a `direction`.
+/// Replaces words by a name of the program with the same meaning: `Richtung` by `direction`.
 void own_words(Line& line) {
   auto tokens = line.tokens;
   bool any = false;
@@ -188,7 +186,7 @@ void own_words(Line& line) {
     });
     const bool said =
         own != line.names.end() && i + 1 < tokens.size() && tokens[i + 1].text == *own;
-    if (own == line.names.end() || said) // `direction course` names it already
+    if (own == line.names.end() || said) // `direction course` already names it
       continue;
     token.text = *own;
     any = true;

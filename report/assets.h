@@ -4,7 +4,7 @@
 
 namespace orb::report {
 
-// page.html, page.css and the modules of page/ as one script, put into the program by the build.
+// page.html, page.css and the modules of page/ as one script, embedded by the build.
 extern const std::string_view page_html;
 extern const std::string_view page_css;
 extern const std::string_view page_js;

@@ -8,8 +8,8 @@
 namespace orb::report {
 namespace {
 
-/// How often a closed line of straight pieces winds around a place; each crossing of the level to
-/// the right of it counts.
+/// Returns the winding number of a polygon around a place, by counting crossings to the right of
+/// it.
 int winding(const std::vector<vm::Point>& ring, vm::Point place) {
   int turns = 0;
   for (std::size_t i = 0; i < ring.size(); ++i) {

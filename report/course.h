@@ -10,12 +10,13 @@
 #include <string_view>
 #include <vector>
 
-// A course: what a ball drives through, read from a drawing (docs/courses.md). All places are
-// centimetres of the world of the ball, which starts at 0,0 facing +Y.
+// A course: the walls and zones that a ball drives through, read from a drawing
+// (docs/using/courses.md). All places are centimetres in the world of the ball, which starts at 0,0
+// facing +Y.
 
 namespace orb::report {
 
-/// A rectangle along the axes.
+/// An axis-aligned rectangle.
 struct Box {
   vm::Point low;
   vm::Point high;
@@ -23,58 +24,58 @@ struct Box {
   void include(vm::Point place);
 };
 
-/// A part of the floor that has a name.
+/// A named part of the floor.
 struct Zone {
   /// How overlapping rings fill: SVG's fill-rule.
   enum class Fill : std::uint8_t { NonZero, EvenOdd };
-  /// A circle or ellipse: what is within 1 of its middle once it is made round again.
+  /// A circle or ellipse, as a map to the unit circle.
   struct Ellipse {
     vm::Point middle;
-    vm::Point to_x; ///< a place's way from the middle, times this, is the x of the unit circle
+    vm::Point to_x; ///< dot product with the offset from the middle: x on the unit circle
     vm::Point to_y;
   };
 
   std::string id;
-  std::vector<std::vector<vm::Point>> rings; ///< its outline, each closed; curves in short pieces
+  std::vector<std::vector<vm::Point>> rings; ///< closed outlines; curves as segments
   Fill fill = Fill::NonZero;
-  std::optional<Ellipse> ellipse; ///< where it is one, and rings only draw it
-  Box box;                        ///< around the rings
+  std::optional<Ellipse> ellipse; ///< if it is one; the rings then only draw it
+  Box box;                        ///< bounding box of the rings
 
   bool contains(vm::Point place) const;
-  /// The way from `place` to the zone; 0 within.
+  /// Distance from `place` to the zone; 0 inside.
   double distance_cm(vm::Point place) const;
 };
 
-/// Walls and zones around a start, which is 0,0 facing +Y.
+/// Walls and zones around a start at 0,0 facing +Y.
 struct Course {
-  std::string name; ///< of the file, without folders and ending
+  std::string name; ///< of the file, without folders and extension
   std::vector<vm::Wall> walls;
   std::vector<Zone> zones;
-  /// Where the start faces in the drawing, whose y is upwards here; of length 1.
+  /// The direction of the start in the drawing, with y upwards; a unit vector.
   vm::Point ahead{0, 1};
 
-  /// The zone of that id, or null.
+  /// Returns the zone of that id, or null.
   const Zone* zone(std::string_view id) const;
-  /// Around everything, the start too.
+  /// Bounding box of everything, including the start.
   Box box() const;
-  /// The walls as what happens to a ball at the start of its run.
+  /// Returns the walls as stimuli for the start of a run.
   std::vector<vm::TimedStimulus> stimuli() const;
 };
 
-/// A course and what is said about its drawing. With an error among it the course is good only for
-/// a look.
+/// A course and the findings about its drawing. With an error among them the course is for
+/// inspection only.
 struct CourseReading {
   Course course;
   std::vector<Diagnostic> findings;
 };
 
-/// Reads a drawing. Any bytes are read in time and memory bounded by their number.
+/// Reads a drawing. Time and memory are bounded by its size, whatever its bytes.
 CourseReading read_course(const Source& drawing);
 
-/// How the files of courses end.
+/// Extension of course files.
 inline constexpr std::string_view course_ending = ".svg";
 
-/// Whether a file of that name is taken for a course.
+/// Returns true if a file of that name counts as a course.
 bool is_course(std::string_view file_name);
 
 } // namespace orb::report

@@ -4,7 +4,7 @@ namespace orb::report {
 
 namespace {
 
-// What a course may hold: the explanation of course-too-large says it, too.
+// Limits of a course. The explanation of course-too-large repeats them.
 constexpr std::size_t most_bytes = 4 << 20;
 constexpr int most_groups = 64;
 constexpr std::size_t most_elements = 100'000;
@@ -14,7 +14,7 @@ struct RoleName {
   std::string_view word;
   Role role;
 };
-// The plural is what people call a layer.
+// People name layers in the plural.
 constexpr auto role_names = std::to_array<RoleName>({
     {"wall", Role::Wall},
     {"walls", Role::Wall},
@@ -23,7 +23,7 @@ constexpr auto role_names = std::to_array<RoleName>({
     {"start", Role::Start},
 });
 
-/// Elements whose children are not drawn where they stand.
+/// Elements whose children are not drawn in place.
 constexpr auto hidden_elements =
     std::to_array<std::string_view>({"defs", "symbol", "clipPath", "mask", "pattern", "marker",
                                      "metadata", "style", "title", "desc"});
@@ -50,7 +50,7 @@ std::string_view local_name(std::string_view name) {
 
 } // namespace
 
-CourseReading Reader::read() {
+CourseReading CourseReader::read() {
   const auto& name = source_.name();
   const auto file = file_name(name);
   out_.course.name = is_course(file) ? stem(file) : file;
@@ -60,12 +60,12 @@ CourseReading Reader::read() {
   return std::move(out_);
 }
 
-void Reader::say(const Rule& rule, Span span, Message message, Message help) {
+void CourseReader::say(const Rule& rule, Span span, Message message, Message help) {
   if (out_.findings.size() < most_findings)
     out_.findings.push_back(finding(rule, span, std::move(message), std::move(help)));
 }
 
-Span Reader::place(const pugi::xml_node& node) const {
+Span CourseReader::place(const pugi::xml_node& node) const {
   const auto offset = node.offset_debug();
   if (offset < 1)
     return {};
@@ -74,7 +74,7 @@ Span Reader::place(const pugi::xml_node& node) const {
   return {begin, std::min(begin + static_cast<std::uint32_t>(length), size())};
 }
 
-Span Reader::place(const pugi::xml_node& node, std::string_view attribute) const {
+Span CourseReader::place(const pugi::xml_node& node, std::string_view attribute) const {
   const auto element = place(node);
   std::size_t at = element.end;
   while (at < text_.size() && text_[at] != '>' && text_[at] != '/') {
@@ -96,13 +96,14 @@ Span Reader::place(const pugi::xml_node& node, std::string_view attribute) const
   return element;
 }
 
-Span Reader::place(const pugi::xml_node& node, std::string_view attribute, Span within) const {
+Span CourseReader::place(const pugi::xml_node& node, std::string_view attribute,
+                         Span within) const {
   const auto value = place(node, attribute);
   return {std::min(value.begin + within.begin, value.end),
           std::min(value.begin + within.end, value.end)};
 }
 
-bool Reader::is_text() {
+bool CourseReader::is_text() {
   if (text_.size() > most_bytes) {
     say(rules::CourseTooLarge, {0, 0}, texts::FileSize(text_.size()), texts::FileLimit());
     return false;
@@ -127,7 +128,7 @@ bool Reader::is_text() {
   return true;
 }
 
-bool Reader::parse() {
+bool CourseReader::parse() {
   const auto result =
       document_.load_buffer(text_.data(), text_.size(), pugi::parse_default, pugi::encoding_utf8);
   if (!result) {
@@ -152,7 +153,7 @@ bool Reader::parse() {
   return true;
 }
 
-void Reader::read_drawing() {
+void CourseReader::read_drawing() {
   const auto root = document_.document_element();
   const double cm = scale(root);
   Matrix to_cm;
@@ -165,7 +166,7 @@ void Reader::read_drawing() {
     say(rules::CourseEmpty, place(root), texts::NoElement(), texts::GiveClass());
 }
 
-double Reader::scale(const pugi::xml_node& root) {
+double CourseReader::scale(const pugi::xml_node& root) {
   const auto box = attribute_numbers(root, "viewBox");
   if (box.empty())
     return 1;
@@ -190,7 +191,7 @@ double Reader::scale(const pugi::xml_node& root) {
   return std::min(by_width, by_height);
 }
 
-std::optional<double> Reader::size_cm(const pugi::xml_node& root, const char* attribute) {
+std::optional<double> CourseReader::size_cm(const pugi::xml_node& root, const char* attribute) {
   const std::string_view text = trim(root.attribute(attribute).value());
   const auto digits = std::min(text.find_first_not_of("0123456789."), text.size());
   const auto unit = trim(text.substr(digits));
@@ -207,7 +208,7 @@ std::optional<double> Reader::size_cm(const pugi::xml_node& root, const char* at
   return *value * found->cm;
 }
 
-void Reader::walk(const Element& parent, int depth) {
+void CourseReader::walk(const Element& parent, int depth) {
   if (depth > most_groups) {
     say(rules::CourseTooLarge, place(parent.node), texts::NestedGroups(most_groups),
         texts::Ungroup());
@@ -226,7 +227,7 @@ void Reader::walk(const Element& parent, int depth) {
   }
 }
 
-void Reader::enter(const Element& parent, const pugi::xml_node& node, int depth) {
+void CourseReader::enter(const Element& parent, const pugi::xml_node& node, int depth) {
   const auto name = local_name(node.name());
   if (std::find(hidden_elements.begin(), hidden_elements.end(), name) != hidden_elements.end() ||
       name.find(':') != std::string_view::npos || property(node, "display") == "none")
@@ -237,7 +238,7 @@ void Reader::enter(const Element& parent, const pugi::xml_node& node, int depth)
   if (name == "g" || name == "a" || name == "switch")
     return walk(element, depth + 1);
   if (own == Role::None && (name == "text" || name == "image"))
-    return; // words and pictures on a layer of walls
+    return; // text and images on a layer of walls
   switch (element.role) {
   case Role::None:
     if (name == "svg")
@@ -249,7 +250,7 @@ void Reader::enter(const Element& parent, const pugi::xml_node& node, int depth)
   }
 }
 
-Role Reader::role_of(const pugi::xml_node& node) {
+Role CourseReader::role_of(const pugi::xml_node& node) {
   for (const auto* attribute : {"class", "inkscape:label", "label"}) {
     std::string_view words = node.attribute(attribute).value();
     while (!(words = trim(words)).empty()) {
@@ -266,7 +267,8 @@ Role Reader::role_of(const pugi::xml_node& node) {
   return Role::None;
 }
 
-void Reader::doubt(const pugi::xml_node& node, std::string_view attribute, std::string_view word) {
+void CourseReader::doubt(const pugi::xml_node& node, std::string_view attribute,
+                         std::string_view word) {
   std::vector<std::string_view> names;
   for (const auto& row : role_names)
     names.push_back(row.word);
@@ -277,7 +279,7 @@ void Reader::doubt(const pugi::xml_node& node, std::string_view attribute, std::
         texts::DidYouMean(*meant));
 }
 
-Matrix Reader::transform(const pugi::xml_node& node) {
+Matrix CourseReader::transform(const pugi::xml_node& node) {
   if (!property(node, "transform").empty() && node.attribute("transform").empty())
     say(rules::CourseValue, place(node, "style"), texts::TransformInStyle(), texts::AsAttribute());
   const auto read = svg::read_transform(node.attribute("transform").value());
@@ -285,20 +287,21 @@ Matrix Reader::transform(const pugi::xml_node& node) {
   return read.matrix;
 }
 
-void Reader::tell(const pugi::xml_node& node, std::string_view attribute,
-                  const std::optional<svg::Mistake>& mistake) {
+void CourseReader::tell(const pugi::xml_node& node, std::string_view attribute,
+                        const std::optional<svg::Mistake>& mistake) {
   if (mistake)
     say(rules::CourseValue, place(node, attribute, mistake->span),
         texts::InAttribute(attribute, mistake->message), mistake->help);
 }
 
-std::vector<double> Reader::attribute_numbers(const pugi::xml_node& node, const char* attribute) {
+std::vector<double> CourseReader::attribute_numbers(const pugi::xml_node& node,
+                                                    const char* attribute) {
   const auto read = svg::read_numbers(node.attribute(attribute).value());
   tell(node, attribute, read.mistake);
   return read.mistake ? std::vector<double>() : read.values;
 }
 
-double Reader::number(const pugi::xml_node& node, const char* attribute) {
+double CourseReader::number(const pugi::xml_node& node, const char* attribute) {
   auto text = trim(node.attribute(attribute).value());
   if (text.ends_with("px"))
     text.remove_suffix(2);
@@ -313,7 +316,7 @@ double Reader::number(const pugi::xml_node& node, const char* attribute) {
   return *value;
 }
 
-void Reader::refuse(const Element& element) {
+void CourseReader::refuse(const Element& element) {
   const auto at = place(element.node);
   if (element.name == "use")
     say(rules::CourseShape, at, texts::ClonesUnread(), texts::UnlinkClone());
@@ -326,7 +329,7 @@ void Reader::refuse(const Element& element) {
 }
 
 CourseReading read_course(const Source& drawing) {
-  return Reader(drawing).read();
+  return CourseReader(drawing).read();
 }
 
 } // namespace orb::report

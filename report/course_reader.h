@@ -23,7 +23,7 @@ using vm::Point;
 
 enum class Role : std::uint8_t { None, Wall, Zone, Start };
 
-/// A property of CSS in a `style` attribute, or the attribute of its name.
+/// Returns a CSS property from the `style` attribute, otherwise the attribute of that name.
 inline std::string_view property(const pugi::xml_node& node, std::string_view name) {
   std::string_view style = node.attribute("style").value();
   while (!style.empty()) {
@@ -37,7 +37,7 @@ inline std::string_view property(const pugi::xml_node& node, std::string_view na
   return node.attribute(std::string(name).c_str()).value();
 }
 
-/// An element on its way into the course: from its units to centimetres, y up.
+/// An element and its transform to centimetres, y up.
 struct Element {
   pugi::xml_node node;
   std::string_view name;
@@ -52,13 +52,15 @@ struct Piece {
 struct Arrow {
   Span span;
   Point place;
-  std::optional<Point> toward; ///< of a circle, where it faces; of an arrow, its last point
+  std::optional<Point> toward; ///< direction of a circle, or end point of an arrow
   bool circle = false;
 };
 
-class Reader {
+/// Reads walls, zones and the start from a drawing. Large because each kind of element and
+/// attribute has its own reader.
+class CourseReader {
 public:
-  explicit Reader(const Source& source) : source_(source), text_(source.text()) {}
+  explicit CourseReader(const Source& source) : source_(source), text_(source.text()) {}
 
   CourseReading read();
 
@@ -66,10 +68,10 @@ private:
   // Findings and their places.
   void say(const Rule& rule, Span span, Message message, Message help = {});
   bool failed() const { return any_error(out_.findings); }
-  /// `<name` in the text.
+  /// The span of `<name` in the text.
   Span place(const pugi::xml_node& node) const;
   std::uint32_t size() const { return static_cast<std::uint32_t>(text_.size()); }
-  /// The value of an attribute in the text; the element where it has none.
+  /// The span of an attribute's value in the text, or of the element if it has none.
   Span place(const pugi::xml_node& node, std::string_view attribute) const;
   Span place(const pugi::xml_node& node, std::string_view attribute, Span within) const;
 
@@ -80,19 +82,19 @@ private:
   // The drawing.
   void read_drawing();
 
-  /// How many centimetres 1 is.
+  /// Centimetres per unit.
   double scale(const pugi::xml_node& root);
-  /// `210mm` in centimetres; nothing where it has no unit of length.
+  /// Converts `210mm` to centimetres; nullopt without a unit of length.
   std::optional<double> size_cm(const pugi::xml_node& root, const char* attribute);
 
   void walk(const Element& parent, int depth);
 
   void enter(const Element& parent, const pugi::xml_node& node, int depth);
 
-  /// What its class, or the label that Inkscape gives it, says an element is.
+  /// Returns the role given by the class, or by Inkscape's label.
   Role role_of(const pugi::xml_node& node);
-  /// A word with a letter too many, too few or in the wrong place is a slip. Another letter is
-  /// another word: `hall`, `ball`.
+  /// Reports a probable slip: a letter too many, too few or out of place. A different letter makes
+  /// a different word: `hall`, `ball`.
   void doubt(const pugi::xml_node& node, std::string_view attribute, std::string_view word);
 
   // Attributes.
@@ -103,27 +105,28 @@ private:
   double number(const pugi::xml_node& node, const char* attribute);
 
   // Shapes.
-  /// The lines of an element in its own units; nothing, with a finding, where it has none.
+  /// Returns the lines of an element in its own units; nullopt, with a finding, if it has none.
   std::optional<Outlines> outlines(const Element& element);
   std::optional<Outlines> points(const Element& element);
   std::optional<Outlines> rectangle(const Element& element);
   bool is_round(const Element& element) const;
   void refuse(const Element& element);
-  /// Into centimetres; with a finding where that is too far or too much.
+  /// Converts points to centimetres. Adds a finding if they are too far away or too many.
   std::vector<Point> placed(const Element& element, const std::vector<Point>& points);
 
   void wall(const Element& element);
   void add_pieces(const std::vector<Point>& points, bool closed);
 
   void zone(const Element& element);
-  /// The middle of a circle or ellipse and its two radii.
+  /// Returns the map from the unit circle: middle and two radii.
   std::optional<Matrix> round_shape(const Element& element);
   void round_zone(const Element& element, Zone& zone);
 
   // The start.
   void start(const Element& element);
 
-  /// Moves and turns everything so that the start is 0,0 facing +Y. False where there is none.
+  /// Moves and turns everything so that the start is 0,0 facing +Y. Returns false if there is no
+  /// start.
   bool find_start();
   void move_to(const Arrow& start, Point ahead);
 

@@ -7,13 +7,13 @@ namespace {
 constexpr std::size_t most_points = 10'000; // of all lines together, and so of walls
 constexpr double farthest_cm = 100'000;
 
-/// A millionth of a centimetre: what is left of rounding in a transform vanishes.
+/// Rounds to a millionth of a centimetre, which removes rounding errors of transforms.
 double rounded_cm(double cm) {
   return std::round(cm * 1e6) / 1e6 + 0.0;
 }
 
-/// Whether a line encloses no area: none of the triangles between its first point and each next two
-/// has one.
+/// Returns true if a ring encloses no area: every triangle of its first point and two successive
+/// points is flat.
 bool is_flat(const std::vector<Point>& ring) {
   constexpr double least = 1e-9; // square centimetres
   for (std::size_t i = 1; i + 1 < ring.size(); ++i) {
@@ -27,7 +27,7 @@ bool is_flat(const std::vector<Point>& ring) {
 
 } // namespace
 
-std::optional<Outlines> Reader::outlines(const Element& element) {
+std::optional<Outlines> CourseReader::outlines(const Element& element) {
   const auto& node = element.node;
   if (element.name == "line")
     return Outlines{
@@ -47,7 +47,7 @@ std::optional<Outlines> Reader::outlines(const Element& element) {
   return std::nullopt;
 }
 
-std::optional<Outlines> Reader::points(const Element& element) {
+std::optional<Outlines> CourseReader::points(const Element& element) {
   const auto numbers = attribute_numbers(element.node, "points");
   if (numbers.size() % 2 != 0)
     say(rules::CourseValue, place(element.node, "points"), texts::OddPoints());
@@ -58,7 +58,7 @@ std::optional<Outlines> Reader::points(const Element& element) {
   return Outlines{{std::move(line)}, {}, {}};
 }
 
-std::optional<Outlines> Reader::rectangle(const Element& element) {
+std::optional<Outlines> CourseReader::rectangle(const Element& element) {
   const auto& node = element.node;
   const double x = number(node, "x");
   const double y = number(node, "y");
@@ -77,11 +77,11 @@ std::optional<Outlines> Reader::rectangle(const Element& element) {
   return path;
 }
 
-bool Reader::is_round(const Element& element) const {
+bool CourseReader::is_round(const Element& element) const {
   return element.name == "circle" || element.name == "ellipse";
 }
 
-std::vector<Point> Reader::placed(const Element& element, const std::vector<Point>& points) {
+std::vector<Point> CourseReader::placed(const Element& element, const std::vector<Point>& points) {
   std::vector<Point> out;
   for (const auto& point : points) {
     const auto place_cm = element.to_cm(point);
@@ -101,7 +101,7 @@ std::vector<Point> Reader::placed(const Element& element, const std::vector<Poin
   return out;
 }
 
-void Reader::wall(const Element& element) {
+void CourseReader::wall(const Element& element) {
   if (is_round(element))
     return say(rules::CourseCurvedWall, place(element.node),
                element.name == "circle" ? texts::WallIsCircle() : texts::WallIsEllipse(),
@@ -123,7 +123,7 @@ void Reader::wall(const Element& element) {
     say(rules::CourseShape, place(element.node), texts::WallHasNoLength());
 }
 
-void Reader::add_pieces(const std::vector<Point>& points, bool closed) {
+void CourseReader::add_pieces(const std::vector<Point>& points, bool closed) {
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (i + 1 == points.size() && (!closed || points.size() < 3))
       break;
@@ -133,7 +133,7 @@ void Reader::add_pieces(const std::vector<Point>& points, bool closed) {
   }
 }
 
-void Reader::zone(const Element& element) {
+void CourseReader::zone(const Element& element) {
   const auto said = out_.findings.size();
   Zone zone;
   zone.id = element.node.attribute("id").value();
@@ -159,7 +159,7 @@ void Reader::zone(const Element& element) {
   out_.course.zones.push_back(std::move(zone));
 }
 
-std::optional<Matrix> Reader::round_shape(const Element& element) {
+std::optional<Matrix> CourseReader::round_shape(const Element& element) {
   const auto& node = element.node;
   const bool circle = element.name == "circle";
   const double rx = number(node, circle ? "r" : "rx");
@@ -169,7 +169,7 @@ std::optional<Matrix> Reader::round_shape(const Element& element) {
   return element.to_cm * Matrix{rx, 0, 0, ry, number(node, "cx"), number(node, "cy")};
 }
 
-void Reader::round_zone(const Element& element, Zone& zone) {
+void CourseReader::round_zone(const Element& element, Zone& zone) {
   const auto shape = round_shape(element);
   if (!shape || shape->determinant() == 0)
     return;
@@ -182,7 +182,7 @@ void Reader::round_zone(const Element& element, Zone& zone) {
   zone.rings.push_back(placed(in_cm, svg::unit_circle()));
 }
 
-void Reader::start(const Element& element) {
+void CourseReader::start(const Element& element) {
   Arrow arrow;
   arrow.span = place(element.node);
   if (is_round(element)) {
@@ -207,7 +207,7 @@ void Reader::start(const Element& element) {
       const auto value = property(element.node, marker);
       return !value.empty() && value != "none";
     };
-    if (has("marker-start") && !has("marker-end")) // its head was drawn at its first point
+    if (has("marker-start") && !has("marker-end")) // its head is drawn at its first point
       std::swap(tail, head);
     arrow.place = element.to_cm(tail);
     arrow.toward = element.to_cm(head);
@@ -215,7 +215,7 @@ void Reader::start(const Element& element) {
   starts_.push_back(arrow);
 }
 
-bool Reader::find_start() {
+bool CourseReader::find_start() {
   if (starts_.empty()) {
     say(rules::CourseStart, place(document_.document_element()), texts::NoStart(),
         texts::AddStart("<circle class=\"start\" cx=\"10\" cy=\"10\" r=\"4\"/>"));
@@ -223,7 +223,7 @@ bool Reader::find_start() {
   }
   auto start = starts_.front();
   if (starts_.size() == 2 && starts_[0].circle != starts_[1].circle) {
-    // An arrow that leaves a circle: together they are one start.
+    // An arrow that leaves a circle: together they form one start.
     const auto& arrow = starts_[starts_[0].circle ? 1 : 0];
     const auto& circle = starts_[starts_[0].circle ? 0 : 1];
     start.place = circle.place;
@@ -243,7 +243,7 @@ bool Reader::find_start() {
   return true;
 }
 
-void Reader::move_to(const Arrow& start, Point ahead) {
+void CourseReader::move_to(const Arrow& start, Point ahead) {
   const auto moved = [&](Point point) {
     const Point way{point.x - start.place.x, point.y - start.place.y};
     return Point{rounded_cm(way.x * ahead.y - way.y * ahead.x),

@@ -7,7 +7,7 @@
 namespace orb::report {
 namespace {
 
-// So many entries keep a report of any run well below a megabyte.
+// Capacities that keep any report well below a megabyte.
 constexpr std::size_t pose_capacity = 8000;
 constexpr std::size_t led_capacity = 6000;
 constexpr std::size_t back_led_capacity = 2000;
@@ -25,6 +25,19 @@ std::int32_t rounded(double value) {
 }
 
 } // namespace
+
+std::string_view to_string(Happening::Kind kind) {
+  switch (kind) {
+  case Happening::Kind::Print: return "print";
+  case Happening::Kind::Error: return "error";
+  case Happening::Kind::Marker: return "marker";
+  case Happening::Kind::Bump: return "bump";
+  case Happening::Kind::Collision: return "collision";
+  case Happening::Kind::Macro: return "macro";
+  case Happening::Kind::Sleep: return "sleep";
+  }
+  return "";
+}
 
 Journey::Journey()
     : poses_(pose_capacity), led_(led_capacity), back_led_(back_led_capacity),
@@ -80,7 +93,7 @@ void Journey::visit(Duration t, Place place) {
 
 std::string Journey::where(int robot_line) const {
   const auto found = lines_.find(robot_line);
-  if (told_ == Told::RobotLine || found == lines_.end())
+  if (error_place_ == ErrorPlace::RobotLine || found == lines_.end())
     return fmt::format("line {}", robot_line);
   return fmt::format("{}:{}", files_[static_cast<std::size_t>(found->second.file)].name,
                      found->second.line);
@@ -189,12 +202,12 @@ void Journey::sample(Duration t, const vm::Body& body) {
                      rounded(100 * body.battery_v()), body.stabilized() ? 1 : 0}});
 }
 
-/// Prints are joined as the robot sends them: an entry for each line, at the time of its end.
+/// Joins prints into lines, each with the time of its end.
 void Journey::print(Duration t, std::string_view text) {
   for (std::size_t end = 0; (end = text.find('\n')) != std::string_view::npos;
        text.remove_prefix(end + 1), line_.clear())
     happen(t, Happening::Kind::Print, line_.append(text.substr(0, end + 1)));
-  // What stays open is cut where the list would cut it.
+  // Truncate an unfinished line as the list would.
   line_.append(text.substr(0, text_limit - std::min(text_limit, line_.size())));
 }
 

@@ -3,8 +3,8 @@
 #include "base/time.h"
 #include "report/course.h"
 #include "spec/robots.h"
+#include "vm/common/observer.h"
 #include "vm/matrix.h"
-#include "vm/observer.h"
 
 #include <array>
 #include <cstdint>
@@ -18,8 +18,8 @@
 
 namespace orb::report {
 
-/// Values over time in bounded memory: the first and the newest are always there; once `capacity`
-/// is reached, what lies between is kept in ever coarser steps.
+/// Values over time in bounded memory. Always keeps the first and the newest; beyond `capacity`
+/// thins what lies between in ever coarser steps.
 template <class Value>
 class Series {
 public:
@@ -44,7 +44,7 @@ public:
 
   const std::vector<Entry>& entries() const { return entries_; }
   bool empty() const { return entries_.empty(); }
-  /// The least distance between two entries; 0 while nothing was left out.
+  /// The least distance between entries; 0 if none was dropped.
   Duration quantum() const { return quantum_; }
 
 private:
@@ -61,7 +61,7 @@ private:
   std::vector<Entry> entries_;
 };
 
-/// A place in the files of a run; line 0 is nowhere.
+/// A place in the files of a run; line 0: none.
 struct Place {
   int file = 0;
   int line = 0;
@@ -69,19 +69,19 @@ struct Place {
   friend auto operator<=>(const Place&, const Place&) = default;
 };
 
-/// How an error says where it happened: by the robot's line, or by the file and its line where the
-/// source has no numbers.
-enum class Told : std::uint8_t { RobotLine, Source };
+/// How an error names its place: by the robot's line, or by file and line if the source has no
+/// numbers.
+enum class ErrorPlace : std::uint8_t { RobotLine, Source };
 
-/// What the body's sensors say at one moment, in the units that orbBasic reads.
+/// Readings of the body's sensors at one moment, in the units of orbBasic.
 struct Sensors {
   static constexpr std::size_t count = 11;
-  /// pitch, roll in deg; acceleration x, y, z and total in milli-g; rotation x, y, z in 0.1 deg/s;
-  /// battery in 1/100 V; stabilisation 0 or 1
+  /// Pitch, roll in deg; acceleration x, y, z and total in milli-g; rotation x, y, z in 0.1 deg/s;
+  /// battery in 1/100 V; stabilisation 0 or 1.
   std::array<std::int32_t, count> values{};
 };
 
-/// One entry of the list of what happened.
+/// An entry in the list of events.
 struct Happening {
   enum class Kind : std::uint8_t { Print, Error, Marker, Bump, Collision, Macro, Sleep };
   static constexpr std::size_t kind_count = 7;
@@ -89,18 +89,22 @@ struct Happening {
   Duration t{};
   Kind kind = Kind::Print;
   std::string text;
-  std::string label; ///< a few characters to stand on the path
+  std::string label; ///< a few characters to show on the path
   std::optional<vm::Pose> at;
 };
 
-/// What one run did, gathered from its events: enough for the report and the drawing. Totals and
-/// counts are exact; columns are thinned when a run is long.
+/// Returns the kind's name on the page and in `events` of other languages: `print`, `bump`, …
+std::string_view to_string(Happening::Kind kind);
+
+/// The record of one run, built from its events: enough for report and drawing. Totals and counts
+/// are exact; columns of long runs are thinned. Large because each kind of event has an overload
+/// and each quantity that a report shows has a column.
 class Journey {
 public:
   struct File {
     std::string name;
     std::string text;
-    std::vector<int> failed; ///< lines where the run faulted
+    std::vector<int> failed; ///< lines with faults
   };
   struct Count {
     std::uint64_t times = 0;
@@ -113,17 +117,17 @@ public:
     double top_speed_cm_s = 0;
     std::array<std::uint64_t, Happening::kind_count> happenings{};
   };
-  /// A variable of the program by its name in the source; 0 until its first change.
+  /// A program variable by its source name; 0 until its first change.
   struct Variable {
     std::string name;
-    std::string owner;           ///< the sub that it belongs to; empty for the whole program's
-    Series<std::int32_t> values; ///< where a line has changed it
+    std::string owner;           ///< the sub it belongs to; empty: global
+    Series<std::int32_t> values; ///< at the lines that changed it
   };
   struct End {
     Duration t{};
     std::string reason; ///< as in the trace
     std::string words;  ///< a sentence for people
-    std::string fault;  ///< the error that ended it; empty for none. Filled in by the journey
+    std::string fault;  ///< the error that ended the run; empty: none. Set by the journey
   };
 
   Journey();
@@ -131,22 +135,22 @@ public:
   // Before the run.
   int add_file(std::string name, std::string text);
   void map_line(int robot_line, Place place);
-  void tell_places(Told told) { told_ = told; }
+  void set_error_place(ErrorPlace place) { error_place_ = place; }
   void map_command(int macro, int command, Place place);
-  /// All variables at once: names and owners. They share the room that a report has.
+  /// Sets all variables: names and owners. They share the capacity of a report.
   void set_variables(const std::vector<std::pair<std::string, std::string>>& names);
   void add_wall(const vm::Wall& wall) { walls_.push_back(wall); }
-  /// What the ball drives through; its walls come before those that were added.
+  /// Sets the course. Its walls precede those added before.
   void set_course(Course course);
 
-  /// Which robot it is: whether its page has a matrix.
+  /// Sets the robot, which determines whether the page shows a matrix.
   void set_robot(spec::Robot robot) { robot_ = robot; }
 
-  // During the run: `t` counts from the start of the program.
+  // During the run. `t` counts from the start of the program.
   void add(Duration t, const vm::Event& event);
-  /// A line that has ended left `value` in the variable of that index.
+  /// Records that the line just ended left `value` in the variable of that index.
   void note(Duration t, std::size_t variable, std::int32_t value);
-  /// Adds to the error that came last why it came; empty where nobody knows.
+  /// Adds a cause to the latest error; empty if unknown.
   void explain(const std::string& why);
   /// Reads the sensors, at most every 20 ms.
   void sample(Duration t, const vm::Body& body);
@@ -162,20 +166,20 @@ public:
   const Series<vm::Color>& led() const { return led_; }
   const Series<int>& back_led() const { return back_led_; }
   spec::Robot robot() const { return robot_; }
-  /// What the matrix showed besides the colours of led(): the newer of both shows.
+  /// Pictures of the matrix, besides the colours of led(): the newer of the two shows.
   const Series<vm::Matrix::Pixels>& pictures() const { return pictures_; }
   const Series<Place>& places() const { return places_; }
   const std::vector<Variable>& variables() const { return variables_; }
   const Series<Sensors>& sensors() const { return sensors_; }
 
-  /// The happenings listed; where some were left out, `left_out` stand before index `gap_at`.
+  /// The list of events; if some were dropped, `left_out` are missing before index `gap_at`.
   struct Listed {
     std::vector<Happening> happenings;
     std::size_t gap_at = 0;
     std::uint64_t left_out = 0;
   };
   Listed listed() const;
-  /// Whether any column is coarser than the run was.
+  /// Returns true if any column was thinned.
   bool thinned() const;
 
 private:
@@ -184,11 +188,11 @@ private:
   void see(Duration t, const vm::event::Led& seen);
   void see(Duration t, const vm::event::BackLed& seen);
   void see(Duration t, const vm::event::Matrix& seen);
-  void see(Duration, const vm::event::Drive&) {} // what it leads to is seen in the poses
+  void see(Duration, const vm::event::Drive&) {} // its effects show in the poses
   void see(Duration t, const vm::event::Position& seen);
   void see(Duration t, const vm::event::Marker& seen);
   void see(Duration t, const vm::event::Macro& seen);
-  void see(Duration, const vm::event::MacroEnd&) {} // its last command says it
+  void see(Duration, const vm::event::MacroEnd&) {} // its last command shows it
   void see(Duration t, const vm::event::Line& seen);
   void see(Duration t, const vm::event::Collision& seen);
   void see(Duration t, const vm::event::Bump& seen);
@@ -205,7 +209,7 @@ private:
   std::vector<vm::Wall> walls_;
   std::optional<Course> course_;
   std::map<int, Place> lines_;
-  Told told_ = Told::RobotLine;
+  ErrorPlace error_place_ = ErrorPlace::RobotLine;
   std::map<std::pair<int, int>, Place> commands_;
   std::map<Place, Count> counts_;
   Totals totals_;
@@ -221,10 +225,10 @@ private:
   std::vector<Happening> first_;
   std::deque<Happening> last_;
   std::optional<vm::Pose> pose_;
-  std::string line_; ///< printed and not ended yet
+  std::string line_; ///< printed but not ended yet
 };
 
-/// A ball of a room and what it did, in places of the room.
+/// A ball of a room and its journey, in places of the room.
 struct RoomRun {
   std::string name;
   const Journey* journey = nullptr;

@@ -23,14 +23,15 @@ using nlohmann::ordered_json;
 constexpr std::string_view schema = "orb.report/1";
 constexpr std::string_view room_schema = "orb.room/1";
 
-/// Poses come this often while the ball moves (docs/ball.md); over a longer gap it stood still.
+/// Interval of poses while the ball moves (docs/using/ball.md). A longer gap means that it stood
+/// still.
 constexpr Duration pose_period = std::chrono::milliseconds{50};
 
 std::int64_t microseconds(Duration t) {
   return std::chrono::duration_cast<std::chrono::microseconds>(t).count();
 }
 
-/// Whole numbers as differences: short, and exact when summed up again.
+/// Encodes integers as differences: short, and exact when summed.
 template <class Entries, class Value>
 ordered_json column(const Entries& entries, Value value) {
   auto list = ordered_json::array();
@@ -58,19 +59,6 @@ ordered_json plain(const Entries& entries, Value value) {
 
 std::int64_t scaled(double value, double scale) {
   return std::llround(value * scale);
-}
-
-std::string_view kind_name(Happening::Kind kind) {
-  switch (kind) {
-  case Happening::Kind::Print: return "print";
-  case Happening::Kind::Error: return "error";
-  case Happening::Kind::Marker: return "marker";
-  case Happening::Kind::Bump: return "bump";
-  case Happening::Kind::Collision: return "collision";
-  case Happening::Kind::Macro: return "macro";
-  case Happening::Kind::Sleep: return "sleep";
-  }
-  return "";
 }
 
 ordered_json poses(const Journey& journey) {
@@ -104,7 +92,7 @@ ordered_json pictures(const Journey& journey) {
 
 ordered_json places(const Journey& journey) {
   const auto& entries = journey.places().entries();
-  // Only where the line changes; a loop on one line is one entry.
+  // Record only changes of the line; a loop on one line is one entry.
   std::vector<Series<Place>::Entry> changes;
   for (const auto& entry : entries)
     if (changes.empty() || changes.back().value != entry.value)
@@ -114,7 +102,7 @@ ordered_json places(const Journey& journey) {
           {"line", plain(changes, [](const auto& entry) { return entry.value.line; })}};
 }
 
-/// Only variables that changed have anything to show.
+/// Includes only variables that changed.
 ordered_json variables(const Journey& journey) {
   auto list = ordered_json::array();
   for (const auto& variable : journey.variables()) {
@@ -153,7 +141,7 @@ ordered_json files(const Journey& journey) {
 ordered_json happening_json(const Happening& happening) {
   const bool prints = happening.kind == Happening::Kind::Print;
   ordered_json one = {{"t", microseconds(happening.t)},
-                      {"kind", kind_name(happening.kind)},
+                      {"kind", to_string(happening.kind)},
                       {"text", prints ? from_latin1(happening.text) : happening.text}};
   if (!happening.label.empty())
     one["short"] = happening.label;
@@ -220,7 +208,7 @@ ordered_json sensors(const Journey& journey) {
   return list;
 }
 
-/// The words of the robot's languages, by the kind that a page colours them as.
+/// The words of the robot's languages, by syntax-colouring class.
 ordered_json words(std::span<const std::string_view> keywords) {
   auto statements = plain(spec::statements, [](const auto& row) { return row.word; });
   for (const auto word : spec::particles)
@@ -243,7 +231,7 @@ std::string thousands(std::uint64_t value) {
   return digits;
 }
 
-/// Whole milliseconds that have passed, as in the last line of `orb run`.
+/// Whole elapsed milliseconds, as in the last line of `orb run`.
 std::string seconds(Duration t) {
   const auto ms = std::chrono::duration_cast<std::chrono::milliseconds>(t).count();
   return fmt::format("{}.{:03} s", ms / 1000, ms % 1000);
@@ -268,13 +256,13 @@ ordered_json totals(const Journey& journey) {
 ordered_json counts(const Journey& journey) {
   ordered_json counts;
   for (std::size_t i = 0; i < Happening::kind_count; ++i)
-    counts[std::string(kind_name(static_cast<Happening::Kind>(i)))] =
+    counts[std::string(to_string(static_cast<Happening::Kind>(i)))] =
         journey.totals().happenings[i];
   return counts;
 }
 
 ordered_json place(vm::Point point) {
-  constexpr double digits = 1000; // of a centimetre
+  constexpr double digits = 1000; // thousandths of a centimetre
   return ordered_json::array(
       {std::round(point.x * digits) / digits, std::round(point.y * digits) / digits});
 }
@@ -290,7 +278,7 @@ ordered_json walls(const Journey& journey) {
   return list;
 }
 
-/// The zones, each with the rings that draw it; the walls are among those of the run.
+/// The zones, each with its rings. Walls are listed with those of the run.
 ordered_json course(const Course& course) {
   auto zones = ordered_json::array();
   for (const auto& zone : course.zones) {
@@ -356,7 +344,7 @@ ordered_json run_data(const Journey& journey, std::string_view title,
   return data;
 }
 
-/// The entries of `series` that came after `t`.
+/// Returns the entries of `series` later than `t`.
 template <class Value>
 std::span<const typename Series<Value>::Entry> since(const Series<Value>& series, Duration t) {
   const auto& entries = series.entries();
@@ -383,7 +371,7 @@ ordered_json new_poses(std::span<const Series<vm::Pose>::Entry> entries) {
           {"speed", by(&vm::Pose::speed_cm_s, 100)}};
 }
 
-/// Of lines that ran it is the last that somebody can see.
+/// Only the last line that ran is visible.
 ordered_json new_places(std::span<const Series<Place>::Entry> entries) {
   if (!entries.empty())
     entries = entries.last(1);
@@ -406,7 +394,7 @@ ordered_json new_happenings(const Journey& journey, std::uint64_t& told) {
   return list;
 }
 
-/// JSON that may stand in a script element: no `<`, so no end tag and no comment can be in it.
+/// Escapes JSON for a script element: without `<` it cannot contain an end tag or comment.
 std::string script_safe(const ordered_json& data) {
   const auto text = data.dump(-1, ' ', true, ordered_json::error_handler_t::replace);
   std::string safe;

@@ -9,11 +9,11 @@
 namespace orb::report {
 namespace {
 
-/// Before this the page says its encoding, which browsers want to read first.
+/// The script goes before this tag and after the encoding, which browsers want to read first.
 constexpr std::string_view head_mark = "<meta name=\"viewport\"";
 
-/// A page from a folder may not read files, but it may show one in a frame and be told by it who it
-/// is. The query keeps browsers from refusing a page inside itself.
+/// A page opened from a folder may not read files, but it may load one in a frame, which reports
+/// its stamp. The query string keeps browsers from refusing a page inside itself.
 constexpr std::string_view script = R"(<script>
 "use strict";
 (() => {{

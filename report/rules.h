@@ -2,7 +2,7 @@
 
 #include "base/rules.h"
 
-/// The rules about courses: `rules::CourseStart`.
+/// The rules for courses: `rules::CourseStart`.
 namespace orb::report::rules {
 
 #define ORB_RULES "report/rules.def"

@@ -22,10 +22,10 @@ struct Point {
   double y = 0;
 };
 
-/// From centimetres (y up) to the card (y down).
-struct Frame {
+/// Maps centimetres (y up) to the card (y down).
+struct CardTransform {
   double scale = 1;
-  Point origin; ///< where 0,0 lies on the card
+  Point origin; ///< the place of 0,0 on the card
   double height = card_width;
 
   Point operator()(vm::Point place) const {
@@ -34,7 +34,8 @@ struct Frame {
   Point operator()(const vm::Pose& pose) const { return (*this)(vm::Point{pose.x_cm, pose.y_cm}); }
 };
 
-/// A tenth of a unit, without a sign before zero: enough for a drawing, and the same everywhere.
+/// Rounds to a tenth of a unit, without a sign before zero: enough for a drawing, and equal on
+/// every machine.
 std::string number(double value) {
   const auto tenths = std::llround(value * 10);
   if (tenths % 10 == 0)
@@ -63,7 +64,7 @@ vm::Color color_at(const Journey& journey, Duration t) {
   return after == entries.begin() ? vm::Color{} : std::prev(after)->value;
 }
 
-/// What the ball showed last; a program's end puts its colour out.
+/// Returns the last colour that was not black; a program's end turns the light off.
 vm::Color last_lit(const Journey& journey) {
   const auto& entries = journey.led().entries();
   const auto found = std::find_if(entries.rbegin(), entries.rend(),
@@ -78,7 +79,7 @@ struct Extent {
   double high = 0;
 };
 
-/// Around all places of a journey, and of another one that may be null.
+/// Bounding box of a journey, and of another one that may be null.
 Extent extent(const Journey& journey, const Journey* other) {
   Extent box;
   bool first = true;
@@ -99,19 +100,19 @@ Extent extent(const Journey& journey, const Journey* other) {
   return box;
 }
 
-/// One line through all places.
-std::string pale_path(const Journey& journey, const Frame& frame) {
+/// Draws one line through all places.
+std::string pale_path(const Journey& journey, const CardTransform& to_card) {
   std::string d;
   std::string here;
   for (const auto& entry : journey.poses().entries())
-    if (const auto next = at(frame(entry.value)); next != here) {
+    if (const auto next = at(to_card(entry.value)); next != here) {
       d += (d.empty() ? "M" : "L") + next;
       here = next;
     }
   return fmt::format("<path class=\"planned\" d=\"{}\"/>\n", d);
 }
 
-/// With all of the course around it.
+/// Extends the box to include the course.
 Extent with_course(Extent box, const Course& course) {
   const auto around = course.box();
   return {std::min(box.left, around.low.x), std::max(box.right, around.high.x),
@@ -122,19 +123,19 @@ bool moved(const Extent& box) {
   return box.right - box.left > 1 || box.high - box.low > 1;
 }
 
-Frame frame_for(const Extent& box) {
+CardTransform card_transform(const Extent& box) {
   const double wide = std::max(box.right - box.left, least_span_cm);
   const double tall = std::max(box.high - box.low, least_span_cm);
-  Frame frame;
-  frame.scale = std::min((card_width - 2 * margin) / wide, (card_height_max - 2 * margin) / tall);
-  frame.height =
-      std::clamp(std::ceil(tall * frame.scale + 2 * margin), card_height_min, card_height_max);
-  frame.origin = {card_width / 2 - (box.left + box.right) / 2 * frame.scale,
-                  frame.height / 2 + (box.low + box.high) / 2 * frame.scale};
-  return frame;
+  CardTransform to_card;
+  to_card.scale = std::min((card_width - 2 * margin) / wide, (card_height_max - 2 * margin) / tall);
+  to_card.height =
+      std::clamp(std::ceil(tall * to_card.scale + 2 * margin), card_height_min, card_height_max);
+  to_card.origin = {card_width / 2 - (box.left + box.right) / 2 * to_card.scale,
+                    to_card.height / 2 + (box.low + box.high) / 2 * to_card.scale};
+  return to_card;
 }
 
-/// 1, 2 or 5 times a power of ten, so that lines stand at least 40 units apart.
+/// Returns 1, 2 or 5 times a power of ten, so that grid lines are at least 40 units apart.
 double grid_step_cm(double scale) {
   double power = 1;
   while (power * scale * 10 < 40)
@@ -145,56 +146,60 @@ double grid_step_cm(double scale) {
   return 10 * power;
 }
 
-std::string grid(const Frame& frame) {
-  const double step = grid_step_cm(frame.scale);
+std::string grid(const CardTransform& to_card) {
+  const double step = grid_step_cm(to_card.scale);
   std::string d;
-  const auto first_x = std::lround(std::ceil(-frame.origin.x / frame.scale / step));
-  const auto last_x = std::lround(std::floor((card_width - frame.origin.x) / frame.scale / step));
+  const auto first_x = std::lround(std::ceil(-to_card.origin.x / to_card.scale / step));
+  const auto last_x =
+      std::lround(std::floor((card_width - to_card.origin.x) / to_card.scale / step));
   for (auto n = first_x; n <= last_x; ++n)
     d += fmt::format("M{} 0V{}",
-                     number(frame.origin.x + static_cast<double>(n) * step * frame.scale),
-                     number(frame.height));
-  const auto first_y = std::lround(std::ceil((frame.origin.y - frame.height) / frame.scale / step));
-  const auto last_y = std::lround(std::floor(frame.origin.y / frame.scale / step));
+                     number(to_card.origin.x + static_cast<double>(n) * step * to_card.scale),
+                     number(to_card.height));
+  const auto first_y =
+      std::lround(std::ceil((to_card.origin.y - to_card.height) / to_card.scale / step));
+  const auto last_y = std::lround(std::floor(to_card.origin.y / to_card.scale / step));
   for (auto n = first_y; n <= last_y; ++n)
     d += fmt::format("M0 {}H{}",
-                     number(frame.origin.y - static_cast<double>(n) * step * frame.scale),
+                     number(to_card.origin.y - static_cast<double>(n) * step * to_card.scale),
                      number(card_width));
-  const double length = step * frame.scale;
+  const double length = step * to_card.scale;
   const auto words = step >= 100 ? fmt::format("{:g} m", step / 100) : fmt::format("{:g} cm", step);
   return fmt::format("<path class=\"grid\" d=\"{}\"/>\n"
                      "<path class=\"scale\" d=\"M{} {}v5h{}v-5\"/>\n"
                      "<text x=\"{}\" y=\"{}\" text-anchor=\"middle\">{}</text>\n",
-                     d, number(card_width - 14 - length), number(frame.height - 17), number(length),
-                     number(card_width - 14 - length / 2), number(frame.height - 20), words);
+                     d, number(card_width - 14 - length), number(to_card.height - 17),
+                     number(length), number(card_width - 14 - length / 2),
+                     number(to_card.height - 20), words);
 }
 
-std::string walls(const Journey& journey, const Frame& frame) {
+std::string draw_walls(const Journey& journey, const CardTransform& to_card) {
   std::string out;
   for (const auto& wall : journey.walls()) {
     if (wall.axis == vm::Wall::Axis::None)
-      out += fmt::format("<path class=\"wall\" d=\"M{}L{}\"/>\n", at(frame(wall.from)),
-                         at(frame(wall.to)));
+      out += fmt::format("<path class=\"wall\" d=\"M{}L{}\"/>\n", at(to_card(wall.from)),
+                         at(to_card(wall.to)));
     else if (wall.axis == vm::Wall::Axis::X)
       out += fmt::format("<path class=\"wall\" d=\"M{} 0V{}\"/>\n",
-                         number(frame.origin.x + wall.at_cm * frame.scale), number(frame.height));
+                         number(to_card.origin.x + wall.at_cm * to_card.scale),
+                         number(to_card.height));
     else
       out += fmt::format("<path class=\"wall\" d=\"M0 {}H{}\"/>\n",
-                         number(frame.origin.y - wall.at_cm * frame.scale), number(card_width));
+                         number(to_card.origin.y - wall.at_cm * to_card.scale), number(card_width));
   }
   return out;
 }
 
-std::string zones(const Course& course, const Frame& frame) {
+std::string zones(const Course& course, const CardTransform& to_card) {
   std::string out;
   for (const auto& zone : course.zones) {
     std::string d;
     for (const auto& ring : zone.rings) {
       for (std::size_t i = 0; i < ring.size(); ++i)
-        d += (i == 0 ? "M" : "L") + at(frame(ring[i]));
+        d += (i == 0 ? "M" : "L") + at(to_card(ring[i]));
       d += "z";
     }
-    const auto top = frame(vm::Point{(zone.box.low.x + zone.box.high.x) / 2, zone.box.high.y});
+    const auto top = to_card(vm::Point{(zone.box.low.x + zone.box.high.x) / 2, zone.box.high.y});
     out += fmt::format("<path class=\"zone\"{} d=\"{}\"/>\n"
                        "<text class=\"zone-name\" x=\"{}\" y=\"{}\" "
                        "text-anchor=\"middle\">{}</text>\n",
@@ -204,11 +209,11 @@ std::string zones(const Course& course, const Frame& frame) {
   return out;
 }
 
-std::string path(const Journey& journey, const Frame& frame) {
+std::string path(const Journey& journey, const CardTransform& to_card) {
   const auto& poses = journey.poses().entries();
   std::string outline;
   std::string unlit;
-  std::string out; // lit stretches lie above unlit ones
+  std::string out; // lit stretches are drawn above unlit ones
   std::string open;
   vm::Color color;
   std::string here;
@@ -225,7 +230,7 @@ std::string path(const Journey& journey, const Frame& frame) {
     open.clear();
   };
   for (std::size_t i = 0; i < poses.size(); ++i) {
-    const auto next = at(frame(poses[i].value));
+    const auto next = at(to_card(poses[i].value));
     if (i > 0 && next != here) {
       const auto shows = color_at(journey, poses[i - 1].t);
       if (open.empty() || !(shows == color)) {
@@ -243,12 +248,12 @@ std::string path(const Journey& journey, const Frame& frame) {
   return unlit + out;
 }
 
-std::string marks(const Journey& journey, const Frame& frame) {
+std::string marks(const Journey& journey, const CardTransform& to_card) {
   std::string out;
   for (const auto& happening : journey.listed().happenings) {
     if (!happening.at)
       continue;
-    const auto where = frame(*happening.at);
+    const auto where = to_card(*happening.at);
     if (happening.kind == Happening::Kind::Collision)
       out += fmt::format("<path class=\"hit\" d=\"M{}l10 10m0 -10l-10 10\"/>\n",
                          at({where.x - 5, where.y - 5}));
@@ -274,13 +279,13 @@ std::string ball(Point where, double radius, vm::Color color) {
                            number(radius));
 }
 
-/// A point on a circle round `center`; 0 is at the top, 1 a whole turn clockwise.
+/// Returns a point on a circle around `center`; share 0 is the top, 1 a full turn clockwise.
 Point on_circle(Point center, double radius, double share) {
   const double angle = share * 2 * 3.14159265358979323846;
   return {center.x + radius * std::sin(angle), center.y - radius * std::cos(angle)};
 }
 
-/// The colours over time as a ring: the picture of a ball that stayed where it was.
+/// Draws the colours over time as a ring, for a ball that stayed in place.
 std::string ring(const Journey& journey, Point center, double radius) {
   const auto& entries = journey.led().entries();
   const auto end = std::max(journey.end().t, Duration{1});
@@ -294,7 +299,7 @@ std::string ring(const Journey& journey, Point center, double radius) {
         static_cast<double>(entries[i].t.count()) / static_cast<double>(end.count());
     const double to = static_cast<double>(until.count()) / static_cast<double>(end.count());
     const auto first = at(on_circle(center, radius, from));
-    // Two halves, because an arc cannot be a whole circle.
+    // Two halves, because an arc cannot be a full circle.
     const auto middle = at(on_circle(center, radius, (from + to) / 2));
     const auto last = at(on_circle(center, radius, to));
     if (first == last && to - from < 0.5)
@@ -322,14 +327,14 @@ text{fill:#e4ecf1}.wall{stroke:#91a2af}.outline{stroke:#000}.unlit{stroke:#586a7
 <defs><radialGradient id="shine" cx=".36" cy=".3" r=".75"><stop offset="0" stop-color="#fff" stop-opacity=".85"/><stop offset=".45" stop-color="#fff" stop-opacity=".1"/><stop offset="1" stop-color="#000" stop-opacity=".25"/></radialGradient></defs>
 )";
 
-/// Of a picture with a course.
+/// For pictures with a course.
 constexpr std::string_view zone_style = R"(<style>
 .wall{stroke-linecap:round}.zone{fill:#1d5fd1;fill-opacity:.1;stroke:#1d5fd1;stroke-dasharray:5 4}.zone-name{fill:#1d5fd1}
 @media (prefers-color-scheme:dark){.zone{fill:#7db0ff;stroke:#7db0ff}.zone-name{fill:#7db0ff}}
 </style>
 )";
 
-/// Of a picture with a planned path.
+/// For pictures with a planned path.
 constexpr std::string_view planned_style = R"(<style>
 .planned{fill:none;stroke:#8c9ba7;stroke-opacity:.45;stroke-width:9;stroke-linecap:round;stroke-linejoin:round}
 </style>
@@ -347,18 +352,20 @@ std::string picture(const Journey& journey, const Journey* planned, double* heig
     const Point center{card_width / 2, *height / 2};
     return ring(journey, center, 78) + ball(center, 44, last);
   }
-  const auto frame = frame_for(box);
-  *height = frame.height;
-  const auto start = poses.empty() ? frame(vm::Point{}) : frame(poses.front().value);
-  const auto end = poses.empty() ? start : frame(poses.back().value);
-  return grid(frame) + (course ? zones(*course, frame) : std::string()) + walls(journey, frame) +
-         (planned != nullptr ? pale_path(*planned, frame) : std::string()) + path(journey, frame) +
+  const auto to_card = card_transform(box);
+  *height = to_card.height;
+  const auto start = poses.empty() ? to_card(vm::Point{}) : to_card(poses.front().value);
+  const auto end = poses.empty() ? start : to_card(poses.back().value);
+  return grid(to_card) + (course ? zones(*course, to_card) : std::string()) +
+         draw_walls(journey, to_card) +
+         (planned != nullptr ? pale_path(*planned, to_card) : std::string()) +
+         path(journey, to_card) +
          fmt::format("<circle class=\"start\" cx=\"{}\" cy=\"{}\" r=\"8\"/>\n", number(start.x),
                      number(start.y)) +
-         marks(journey, frame) + ball(end, 10, last);
+         marks(journey, to_card) + ball(end, 10, last);
 }
 
-/// Around all places of all balls, and the course.
+/// Bounding box of all balls and the course.
 Extent extent_of(std::span<const RoomRun> balls) {
   Extent box;
   bool first = true;
@@ -373,28 +380,28 @@ Extent extent_of(std::span<const RoomRun> balls) {
   return course ? with_course(box, *course) : box;
 }
 
-/// A ball of a room with its name.
-std::string named_ball(const RoomRun& one, const Frame& frame) {
+/// Draws a ball of a room with its name.
+std::string named_ball(const RoomRun& one, const CardTransform& to_card) {
   constexpr double least_radius = 4;
   constexpr double most_radius = 20;
   const auto& poses = one.journey->poses().entries();
-  const auto where = poses.empty() ? frame(vm::Point{}) : frame(poses.back().value);
-  const double radius = std::clamp(spec::ball::radius * frame.scale, least_radius, most_radius);
+  const auto where = poses.empty() ? to_card(vm::Point{}) : to_card(poses.back().value);
+  const double radius = std::clamp(spec::ball::radius * to_card.scale, least_radius, most_radius);
   return ball(where, radius, last_lit(*one.journey)) +
          fmt::format("<text x=\"{}\" y=\"{}\" text-anchor=\"middle\">{}</text>\n", number(where.x),
                      number(where.y - radius - 4), escape_markup(to_valid_utf8(one.name)));
 }
 
 std::string room_picture(std::span<const RoomRun> balls, double* height) {
-  const auto frame = frame_for(extent_of(balls));
-  *height = frame.height;
+  const auto to_card = card_transform(extent_of(balls));
+  *height = to_card.height;
   const auto& first = *balls.front().journey;
-  auto out = grid(frame) + (first.course() ? zones(*first.course(), frame) : std::string()) +
-             walls(first, frame);
+  auto out = grid(to_card) + (first.course() ? zones(*first.course(), to_card) : std::string()) +
+             draw_walls(first, to_card);
   for (const auto& one : balls)
-    out += path(*one.journey, frame);
+    out += path(*one.journey, to_card);
   for (const auto& one : balls)
-    out += named_ball(one, frame);
+    out += named_ball(one, to_card);
   return out;
 }
 

@@ -12,7 +12,7 @@ namespace orb::report::svg {
 namespace {
 
 constexpr double pi = std::numbers::pi;
-constexpr double to_radians = pi / 180; // a half turn
+constexpr double to_radians = pi / 180; // 180 degrees are pi
 constexpr int curve_pieces = 24;
 constexpr int circle_pieces = 72;
 
@@ -20,7 +20,7 @@ bool is_gap(char c) {
   return is_blank(c) || c == '\n' || c == '\r' || c == '\f';
 }
 
-/// A place in the text of an attribute.
+/// Scans the text of an attribute.
 class Scanner {
 public:
   explicit Scanner(std::string_view text) : text_(text) {}
@@ -34,7 +34,7 @@ public:
     while (!done() && is_gap(text_[at_]))
       ++at_;
   }
-  /// Blanks and at most one comma.
+  /// Skips blanks and at most one comma.
   void separator() {
     gaps();
     if (peek() == ',')
@@ -57,7 +57,7 @@ public:
     const char c = peek();
     return is_digit(c) || c == '.' || c == '-' || c == '+';
   }
-  /// A number as SVG writes it: a point or a sign may begin the next one.
+  /// Parses an SVG number: a point or a sign may begin the next one.
   std::optional<double> number() {
     const auto begin = at_;
     auto end = at_;
@@ -94,13 +94,13 @@ public:
       at_ = end;
     return value;
   }
-  /// 0 or 1, which the next number may follow without a blank.
+  /// Parses 0 or 1. The next number may follow without a blank.
   std::optional<bool> flag() {
     if (peek() != '0' && peek() != '1')
       return std::nullopt;
     return text_[at_++] == '1';
   }
-  /// What stands here up to a blank, as a mistake shows it.
+  /// Quotes the text from here to the next blank in a mistake.
   Mistake mistake(Message wanted, Message help) const {
     auto end = at_;
     while (end < text_.size() && !is_gap(text_[end]) && text_[end] != ',' && end - at_ < 20)
@@ -129,7 +129,7 @@ struct Function {
 
 Matrix turn(double degrees) {
   // Quarter turns are exact.
-  const double quarters = degrees / 90; // of a turn
+  const double quarters = degrees / 90; // quarter turns
   if (quarters == std::floor(quarters) && std::abs(quarters) < 1e6) {
     constexpr std::array<double, 4> sines{0, 1, 0, -1};
     const auto quarter = static_cast<std::size_t>((static_cast<long>(quarters) % 4 + 4) % 4);
@@ -157,7 +157,7 @@ constexpr auto functions = std::to_array<Function>({
 });
 // clang-format on
 
-/// Reads path data into lines: the commands of SVG, and where the pen is.
+/// Converts path data to lines: executes SVG's commands and tracks the pen.
 class Path {
 public:
   Path(std::string_view text, std::size_t most_points) : scan_(text), most_points_(most_points) {}
@@ -183,7 +183,7 @@ public:
   }
 
 private:
-  /// A command and what follows it: coordinates may come again without its letter.
+  /// Executes a command; further coordinates repeat it without its letter.
   void repeat(char command) {
     first_ = false;
     relative_ = command >= 'a';
@@ -250,7 +250,7 @@ private:
   void line_to(Point to) {
     if (out_.mistake)
       return;
-    if (out_.lines.back().closed) // after Z the next line begins where the last one did
+    if (out_.lines.back().closed) // after Z the next line begins where the last one began
       start_line(out_.lines.back().points.front());
     if (++points_ > most_points_)
       return fail(texts::EndAfter(most_points_), texts::Simplify());
@@ -263,7 +263,7 @@ private:
     last_ = 'Z';
   }
 
-  /// Whether a point lies on the straight way from the pen to `to`.
+  /// Returns true if a point lies on the segment from the pen to `to`.
   bool on_the_way(Point point, Point to) const {
     return std::hypot(point.x - pen_.x, point.y - pen_.y) +
                std::hypot(to.x - point.x, to.y - point.y) <=
@@ -335,7 +335,7 @@ private:
     if (rx == 0 || ry == 0 || from == to)
       return line_to(to);
     mark_curve();
-    // Source: SVG 1.1 §F.6.5, from the ends of an arc to its middle.
+    // Source: SVG 1.1 §F.6.5, conversion from end points to centre.
     const double sine = std::sin(tilt);
     const double cosine = std::cos(tilt);
     const Point half{(from.x - to.x) / 2, (from.y - to.y) / 2};
@@ -384,7 +384,7 @@ private:
   bool first_ = true;
   bool relative_ = false;
   char last_ = 'M';
-  std::uint32_t begin_ = 0; ///< of the command
+  std::uint32_t begin_ = 0; ///< start of the command
   Point pen_;
   Point control_; ///< of the last curve
 };

@@ -2,7 +2,7 @@
 
 #include "base/texts.h"
 
-/// What is said about courses: `texts::NoStart()`.
+/// The texts about courses: `texts::NoStart()`.
 namespace orb::report::texts {
 
 using namespace orb::texts;

@@ -11,7 +11,7 @@ namespace orb::report {
 
 namespace {
 
-/// The columns after `t` and `event`: every key in the order in which the events name them.
+/// The columns after `t` and `event`: all keys, in the order in which events use them.
 constexpr auto columns = std::to_array<std::string_view>({
     "r",      "g",      "b",         "heading", "speed",    "go",      "x",      "y",
     "marker", "macro",  "command",   "line",    "code",     "message", "reason", "lines",
@@ -26,7 +26,7 @@ struct Overloaded : Functions... {
 template <class... Functions>
 Overloaded(Functions...) -> Overloaded<Functions...>;
 
-/// Text of the robot as JSON: bytes above 7Fh are U+0080 to U+00FF.
+/// Quotes the robot's text as JSON: bytes above 7Fh are U+0080 to U+00FF.
 std::string json_string(std::string_view text) {
   std::string out = "\"";
   for (const char c : text) {
@@ -43,7 +43,7 @@ std::string json_string(std::string_view text) {
   return out + '"';
 }
 
-/// The same as one field of CSV; the bytes become UTF-8.
+/// Quotes the text as a CSV field; each byte of it becomes a code point in UTF-8.
 std::string csv_string(std::string_view text) {
   std::string out = "\"";
   for (const char c : text) {
@@ -60,7 +60,7 @@ std::string csv_string(std::string_view text) {
 }
 
 std::string two_decimals(double value) {
-  // Two decimals: a tenth of a millimetre. No sign before zero.
+  // A tenth of a millimetre. No sign before zero.
   auto text = fmt::format("{:.2f}", value);
   return text == "-0.00" ? "0.00" : text;
 }
@@ -145,7 +145,7 @@ std::string trace_line(TraceFormat format, Duration t, const vm::Event& event) {
             return line("backled", {{"value", n(x.value)}});
           },
           [&](const e::Matrix& x) {
-            // A column of its own would change every trace of robots that have none.
+            // A separate column would change every trace of robots without a matrix.
             const std::string_view key = format == TraceFormat::Csv ? "text" : "pixels";
             return line("matrix", {{key, vm::hex_of(x.pixels)}});
           },
@@ -208,7 +208,7 @@ std::string trace_line(TraceFormat format, Duration t, const vm::Event& event) {
 
 namespace {
 
-/// The robot's line that an event speaks of; 0 where it speaks of none.
+/// Returns the robot line of an event; 0 if it has none.
 int line_of(const vm::Event& event) {
   if (const auto* error = std::get_if<vm::event::Error>(&event))
     return error->line;
@@ -247,7 +247,7 @@ std::string TraceWriter::with_source(std::string line, const std::string& source
   return line;
 }
 
-/// Writes a line with what it knows of its place and, in a room, of its ball and of another one.
+/// Writes a line, extended by its source place and, in a room, by its ball and the other ball.
 void TraceWriter::tell(std::string line, const std::string& source, const std::string& other) {
   if (line.empty())
     return;

@@ -12,12 +12,12 @@
 namespace orb::run {
 namespace {
 
-/// What the files of one call share.
+/// State shared by the files of one call.
 struct Call {
   std::span<const SourceFile> sources;
   const compiler::Target& target;
   structured::Files& reader;
-  std::vector<FileFindings> macros; ///< of the macro sources, in order
+  std::vector<FileFindings> macros; ///< for the macro sources, in order
   std::size_t next_macro = 0;
   Findings found;
 };
@@ -31,7 +31,7 @@ void check_basic(const SourceFile& file, Call& call) {
   call.found.files.push_back({&file.source, std::move(checked.diagnostics), checked.image_bytes});
 }
 
-/// Whether an included file is checked for its own sake, or was shown already.
+/// Returns true if an included file is checked in its own right or has been reported already.
 bool is_told(const Call& call, const std::string& name) {
   const auto& files = call.found.files;
   return std::any_of(call.sources.begin(), call.sources.end(),
@@ -40,7 +40,7 @@ bool is_told(const Call& call, const std::string& name) {
                      [&](const FileFindings& other) { return other.source->name() == name; });
 }
 
-/// A structured program, and after it each included file that something is said about.
+/// Checks a structured program, followed by each included file with findings.
 void check_structured(const SourceFile& file, Call& call) {
   const auto& source = file.source;
   const auto compiled =

@@ -14,19 +14,19 @@
 
 namespace orb::run {
 
-/// What is said about files, which it refers to; after each the included ones that something is
-/// said about.
+/// Findings, which refer to the checked files. Included files with findings follow the file that
+/// includes them.
 struct Findings {
   std::vector<FileFindings> files;
   std::deque<Source> included;
 };
 
-/// Checks programs, macros and courses. Macros are checked together: they go to one ball and call
-/// each other. Of tests nothing is said: testing::check_tests() does.
+/// Checks programs, macros and courses. Macros are checked together, because they share a ball and
+/// call each other. Tests are left to testing::check_tests().
 Findings check_files(std::span<const SourceFile> sources, const compiler::Target& target,
                      const assembler::LintOptions& macro, structured::Files& files);
 
-/// Makes the safe fixes of what `findings` says of a file until none is left; how many.
+/// Applies safe fixes until `findings` reports none. Returns how many.
 std::size_t fix(SourceFile& file,
                 const std::function<std::vector<Diagnostic>(const SourceFile&)>& findings);
 

@@ -10,7 +10,7 @@
 namespace orb::run {
 namespace {
 
-/// The kind of macro that the user or the file asks for.
+/// The kind of macro requested by the user or by the file.
 uploader::MacroKind macro_kind(const DeliveryOptions& options, const Macro& macro) {
   if (options.kind)
     return *options.kind;

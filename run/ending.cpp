@@ -11,7 +11,7 @@
 namespace orb::run {
 namespace {
 
-/// The name of the colour of LEDC that is nearest, whatever its brightness.
+/// Returns the nearest colour name of LEDC, ignoring brightness.
 std::string name_of(vm::Color color) {
   constexpr int brightest = 255;
   constexpr int dim_below = 64;
@@ -37,7 +37,7 @@ std::string length(std::uint64_t cm) {
                   : fmt::format("{:.1f} m", static_cast<double>(cm) / 100);
 }
 
-/// Where it came to; empty where nothing moved it or tried to.
+/// Describes where the ball went; empty if nothing moved it or tried to.
 std::string way(const Sight& sight) {
   if (sight.way_cm == 0) {
     if (sight.motion == Sight::Motion::Driven)

@@ -3,8 +3,8 @@
 #include "base/exit_code.h"
 #include "base/time.h"
 #include "spec/robots.h"
-#include "vm/body/elsewhere.h"
-#include "vm/observer.h"
+#include "vm/body/remote_body.h"
+#include "vm/common/observer.h"
 #include "vm/stimulus.h"
 
 #include <tl/expected.hpp>
@@ -13,25 +13,24 @@
 
 namespace orb::run {
 
-/// What a robot says that a run is to know.
+/// News from a robot that matters to a run.
 using Felt = std::variant<vm::Sample, vm::event::Collision, vm::stimulus::Battery>;
 
-/// A robot that drives as a run says, and that somebody may hold, as a debugger does at a
-/// breakpoint: then it is braked and says nothing, and the time of the run stands still. It is held
-/// to begin with. When it is destroyed, it has been told to stop.
-class HeldRobot : public vm::Elsewhere {
+/// A robot driven by a run that can be held, for example at a breakpoint: it then brakes and stays
+/// silent while the run's time stands still. Initially held. The destructor sends a stop.
+class HeldRobot : public vm::RemoteBody {
 public:
-  /// Which it is: its battery is its own.
+  /// The kind of robot, which determines its battery.
   virtual spec::Robot kind() const { return spec::Robot::Sphero; }
-  /// What it said before the run.
+  /// Its sample before the run.
   virtual const vm::Sample& first() const = 0;
-  /// Lets it drive on as it did when it was held; the time of the run is `t` now.
+  /// Releases it: it drives on as before hold(). The run's time is now `t`.
   virtual tl::expected<void, Failure> go_on(Duration t) = 0;
-  /// The time of the run that has passed, while it is not held.
+  /// The run's time, while it is not held.
   virtual Duration time() const = 0;
-  /// Sends what is due and waits for news until the run has come to `until`, or a little while.
+  /// Sends what is due and waits for news until the run reaches `until`, or for a short while.
   virtual tl::expected<std::vector<Felt>, Failure> hear(Duration until) = 0;
-  /// Brakes it. Fails where it has not acknowledged that.
+  /// Brakes it. Fails if it does not acknowledge that.
   virtual tl::expected<void, Failure> hold() = 0;
 };
 

@@ -60,12 +60,12 @@ void read_macro_source(Input& input) {
   input.errors.push_back({input.source.get(), std::move(assembly.diagnostics), {}});
 }
 
-/// The macros of a file that a program uses: those that it can call.
+/// Reads the macros of a file that a program uses. Only macros with an id can be called.
 Input used_macros(const structured::MacroFile& file) {
   Input used;
   used.source = std::make_unique<Source>(file.path, file.text);
   read_macro_source(used);
-  used.checked->files = used.errors; // more is not said of a file that was not handed in
+  used.checked->files = used.errors; // only errors are reported for files the user did not name
   std::erase_if(used.macros, [](const Macro& macro) { return !macro.has_id; });
   return used;
 }
@@ -81,9 +81,9 @@ void read_structured(Input& input, structured::Files& files, const std::vector<s
   if (shape == structured::Shape::Steppable && compiled->has_errors())
     compiled = compile(structured::Shape::Shortest);
   auto found = structured::findings_by_file(compiled->program);
-  if (!compiled->has_errors() && !compiled->runs) // fine by itself, but nothing to run or to send
+  if (!compiled->has_errors() && !compiled->runs) // valid, but there is nothing to run or send
     found.front().push_back(structured::nothing_to_run());
-  auto& all = input.checked->files; // the compiler has checked it on the way
+  auto& all = input.checked->files; // the compiler has already checked it
   all.push_back({input.source.get(), std::move(found.front()), {}});
   for (std::size_t i = 1; i < found.size(); ++i) {
     const auto& file = compiled->program.files[i];
@@ -211,6 +211,11 @@ Failure unknown_content(std::string_view name) {
     return {
         ExitCode::Usage,
         fmt::format("{0} is a stimulus script; `orb run PROGRAM --stimulus {0}` plays it", name)};
+  if (has_ending(name, ".js"))
+    return {ExitCode::Usage,
+            fmt::format("{0} is JavaScript; `npx orb-robot check {0}` checks a program of Sphero "
+                        "Edu, and `npx orb-robot run {0}` runs it on a virtual robot",
+                        name)};
   return {ExitCode::Usage, fmt::format("cannot tell the language of {} from its name; give "
                                        "`--lang basic`, `--lang structured` or `--lang macro`",
                                        name)};
@@ -299,7 +304,7 @@ void add_input(std::vector<Input>& inputs, Input input) {
     if (same(used) == inputs.end())
       inputs.push_back(std::move(used));
   if (const auto found = same(input); found != inputs.end() && !input.macros.empty())
-    *found = std::move(input); // with the macros that have no id
+    *found = std::move(input); // replace it by the version that includes macros without an id
   else
     inputs.push_back(std::move(input));
 }

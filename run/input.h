@@ -20,123 +20,126 @@
 #include <tl/expected.hpp>
 #include <vector>
 
-// What users hand to orb: one reader for every command that takes programs and macros.
+// Reads programs and macros, for all commands.
 
 namespace orb::run {
 
-/// What a source is written in.
+/// The language of a source.
 enum class Language : std::uint8_t { Basic, Structured, Macro };
 
-/// What a file holds.
+/// The content of a file.
 enum class Content : std::uint8_t {
-  Basic,       ///< an orbBasic program: source, or a built image with its final NUL
+  Basic,       ///< orbBasic: source, or a built image with its final NUL
   Structured,  ///< a program in structured orbBasic
   MacroSource, ///< macro source
   MacroBody,   ///< the commands of one macro: `.sphero`
   MacroImage,  ///< a framed macro: `.bin`
 };
 
-/// What the ending of `name` says, or `language` (`basic`, `structured`, `macro` or empty), which
-/// is stronger.
+/// Determines the content from `language` (`basic`, `structured`, `macro` or empty), otherwise from
+/// the extension of `name`.
 std::optional<Content> content_of(std::string_view name, std::string_view language);
 
-/// The language of a source, by the same rule; nothing where the file holds bytes or cannot be
-/// told.
+/// Determines the language in the same way; nullopt if the file holds bytes or is unknown.
 std::optional<Language> language_of(std::string_view name, std::string_view language);
 
-/// What a program in plain text is written in, as `language` names it: where it begins with a
-/// number `basic`, with a dot `macro`, else `structured`.
+/// Guesses the language of a program in plain text, as a value for `language`: `basic` if it begins
+/// with a number, `macro` if with a dot, otherwise `structured`.
 std::string_view language_of_text(std::string_view text);
 
-/// A source in its language: programs and macro source, not bytes. Courses and tests have none.
+/// A source and its language: programs and macro sources, not bytes. Courses and tests have no
+/// language.
 struct SourceFile {
   std::string path;
   std::optional<Language> language;
   Source source;
-  bool is_bytes = false; ///< the file holds a macro's bytes, and the source is made from them
+  bool is_bytes = false; ///< the file holds a macro's bytes, from which the source is derived
 };
 
-/// The macro source of a file that holds bytes, a `.sphero` or a `.bin`; BadInput where they are no
-/// macro.
+/// Returns the macro source for a `.sphero` or `.bin` file. Fails with BadInput if the bytes are
+/// not a macro.
 tl::expected<std::string, Failure> macro_source(std::string_view name, std::string_view bytes);
 
-/// Whether the ending of `name` says that it holds the bytes of a macro.
+/// Returns true if the extension of `name` denotes macro bytes.
 bool holds_macro_bytes(std::string_view name);
 
-/// That a file of bytes is not written as text: code 2, and the command that makes a source of it.
+/// Failure for writing text to a file of bytes: code 2, with the command that converts it to
+/// source.
 Failure not_text(std::string_view name);
 
-/// That the form of `name` cannot be told: code 2, and what to add.
+/// Failure for unknown content: code 2, with what to add.
 Failure unknown_content(std::string_view name);
 
-/// A program as it goes to a ball.
+/// A program ready to be sent.
 struct Program {
   compiler::Program parsed; ///< refers to the source of its input, or to the compiled text
   compiler::Image image;
   LineMap lines;
-  std::unique_ptr<structured::Compiled> compiled; ///< null where the lines were written by hand
+  std::unique_ptr<structured::Compiled> compiled; ///< null for hand-written robot lines
 
-  /// The number of the first line that the robot can start at; nothing where there is none.
+  /// The first line number at which the robot can start; nullopt if there is none.
   std::optional<std::uint16_t> first_line() const;
-  /// `line 20`; of a structured program the place in its source, as in `patrol.orb:12:3`.
+  /// Returns `line 20`; for a structured program the place in its source, for example
+  /// `patrol.orb:12:3`.
   std::string where(std::uint32_t robot_line) const;
 };
 
-/// A macro as it goes to a ball.
+/// A macro ready to be sent.
 struct Macro {
   std::string name;
   protocol::MacroImage image;
-  bool has_id = false;                      ///< the file gives the id
-  std::vector<std::uint32_t> command_lines; ///< of command number k + 1, 0 for one that is not
-                                            ///< written; empty for bytes
+  bool has_id = false; ///< the file specifies the id
+  /// Source line of command k + 1; 0 if it is not written out; empty for bytes.
+  std::vector<std::uint32_t> command_lines;
 };
 
-/// What findings() has found, for whoever asks next.
+/// Cached result of findings().
 struct Checked {
   std::once_flag once;
-  std::vector<FileFindings> files; ///< empty before somebody asks, if reading does not tell all
+  std::vector<FileFindings> files; ///< filled on first use, unless reading produces all findings
 };
 
 /// One file: a program, or one or more macros.
 struct Input {
   std::unique_ptr<Source> source;
-  compiler::Target target; ///< what findings() checks a program for
+  compiler::Target target; ///< what findings() checks a program against
   std::optional<Program> program;
   std::vector<Macro> macros;
-  /// In the order of Program::lines.files, after the source: what a structured program includes.
+  /// The files included by a structured program, in the order of Program::lines.files, without the
+  /// source itself.
   std::vector<std::unique_ptr<Source>> included;
-  std::vector<Input> used; ///< the macro files that go along with the program
-  /// What reading it told, about the source and then each included file: why it cannot be built.
-  /// With an error among them, what else is there is good only for a look.
+  std::vector<Input> used; ///< macro files used by the program
+  /// Findings of reading, for the source and then each included file: what prevents a build. If
+  /// they contain an error, the other members are for inspection only.
   std::vector<FileFindings> errors;
   std::unique_ptr<Checked> checked = std::make_unique<Checked>();
 
   bool has_errors() const;
 };
 
-/// Reads the content of the file `name`, without a check. Bytes that are not a macro are a failure;
-/// mistakes of a source are findings. A name that says nothing will do where the text is a built
-/// image. What a structured program names is read through `files`, its paths counting from `name`;
-/// its variables `kept` hold their values to the end (structured/compile.h). One that does not fit
-/// while it is steppable becomes the shortest.
+/// Reads the file `name` without checking it. Bytes that are not a macro are a failure; mistakes in
+/// a source become findings. An unknown extension is accepted if the text is a built image. Files
+/// named by a structured program are read through `files`, relative to `name`; its variables `kept`
+/// hold their values to the end (structured/compile.h). If the steppable shape does not fit, the
+/// shortest one is used.
 tl::expected<Input, Failure> read_input(std::string name, std::string text,
                                         std::string_view language, const compiler::Target& target,
                                         structured::Files& files,
                                         const std::vector<std::string>& kept = {},
                                         structured::Shape shape = structured::Shape::Shortest);
 
-/// All that is to be said about an input: of the source, then of each included file. Whoever asks
-/// first, in whichever thread, has it checked.
+/// Returns all findings for an input: for the source, then for each included file. Checks on first
+/// use; thread-safe.
 const std::vector<FileFindings>& findings(const Input& input);
 
-/// The first input that holds a program; null where none does.
+/// Returns the first input with a program; null if there is none.
 const Input* first_with_program(std::span<const Input> inputs);
 
-/// Refuses a line to start at where the program is structured: its lines have no numbers.
+/// Refuses a start line for structured programs, because their lines have no numbers.
 tl::expected<void, Failure> check_start_line(std::span<const Input> inputs,
                                              std::optional<std::uint16_t> line);
 
-/// Adds an input and before it the macro files that it uses; a file is taken once.
+/// Adds an input, preceded by the macro files it uses. Skips files already present.
 void add_input(std::vector<Input>& inputs, Input input);
 
 } // namespace orb::run

@@ -11,7 +11,7 @@
 namespace orb::run {
 namespace {
 
-/// The files of a program as they were when it was compiled.
+/// The files of a program as they were at compile time.
 class CompiledFiles final : public structured::Files {
 public:
   explicit CompiledFiles(const structured::Program& program) : program_(program) {}
@@ -30,7 +30,7 @@ private:
   const structured::Program& program_;
 };
 
-/// Whether it depends on the version.
+/// Returns true if the finding depends on a version.
 bool is_of_age(const Diagnostic& found) {
   const auto is = [&](const Rule& rule) { return found.rule == &rule; };
   return is_error(found) &&
@@ -46,7 +46,7 @@ public:
         all_.push_back({&source, source.name(), one});
   }
 
-  /// Of a macro without source.
+  /// Adds what a macro without source lacks.
   void add(const Macro& macro, int executive) {
     const auto listing = protocol::decode_macro_body(macro.image.body);
     for (std::size_t n = 0; n < listing.steps.size(); ++n) {
@@ -84,12 +84,12 @@ std::vector<Lack> lacks_of(std::span<const Input> inputs, const uploader::Capabi
   const int executive = ball.macro_executive;
   for (const auto& input : inputs) {
     if (input.program && !ball.has_basic)
-      continue; // the plan says so
+      continue; // the plan reports that
     if (input.program && input.program->compiled)
       add_structured(lacks, input, target);
     else if (input.program)
       lacks.add(*input.source, compiler::lint(input.program->parsed, target));
-    if (input.macros.empty() || executive == 0) // which it has not told
+    if (input.macros.empty() || executive == 0) // 0: the ball has not reported its version
       continue;
     if (!input.macros.front().command_lines.empty())
       lacks.add(*input.source, assembler::check(*input.source, {.executive = executive}));

@@ -10,19 +10,19 @@
 
 namespace orb::run {
 
-/// Something that a ball's firmware does not know.
+/// A feature that a ball's firmware lacks.
 struct Lack {
-  const Source* source = nullptr; ///< of the input; null where that holds bytes
-  std::string name;               ///< of the file or the macro
+  const Source* source = nullptr; ///< of the input; null if it holds bytes
+  std::string name;               ///< of the file or macro
   Diagnostic finding;
 };
 
-/// What programs and macros use that came later than the orbBasic and the macro executive of a
-/// ball, in their order; but for what a source allows by a comment. The inputs must outlive it.
+/// Returns uses of features newer than the ball's orbBasic or macro executive, in order, except
+/// those that the source allows by a comment. The inputs must outlive the result.
 std::vector<Lack> lacks_of(std::span<const Input> inputs, const uploader::Capabilities& ball);
 
-/// Why nothing of it is sent to a ball that has greeted, with the first that it lacks and its
-/// firmware: a sentence.
+/// Explains in a sentence why nothing is sent, with the first missing feature and the ball's
+/// firmware.
 std::string in_words(std::span<const Lack> lacks, const uploader::Greeting& greeting);
 
 } // namespace orb::run

@@ -21,7 +21,7 @@ std::string text_of(const nlohmann::json& object, const char* key) {
   return found == object.end() || !found->is_string() ? std::string() : found->get<std::string>();
 }
 
-/// The index of a file, which is added where it is new.
+/// Returns the index of a file and adds it if it is new.
 std::uint32_t file_of(LineMap& map, std::string name) {
   const auto found = std::find(map.files.begin(), map.files.end(), name);
   if (found != map.files.end())

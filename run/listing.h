@@ -7,13 +7,14 @@
 
 namespace orb::run {
 
-/// How far a listing goes down.
+/// Depth of a listing.
 enum class Listed : std::uint8_t {
   Instructions, ///< of bytecode/op.def
-  MachineCode,  ///< these, and what the processor gets where this build has a back end
+  MachineCode,  ///< also machine code, if this build has a back end
 };
 
-/// What the virtual ball makes of a program: each line as the robot has it, with its instructions.
+/// Returns a listing of a program as the virtual ball runs it: each robot line with its
+/// instructions.
 std::string listing(const compiler::Image& image, Listed listed);
 
 } // namespace orb::run

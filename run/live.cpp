@@ -12,8 +12,8 @@
 namespace orb::run {
 namespace {
 
-/// What the ball answers to the command that starts the run.
-class Answer {
+/// The ball's answer to the command that starts the run.
+class StartAnswer {
 public:
   void take(ByteView bytes) {
     if (code_)
@@ -34,7 +34,7 @@ private:
   std::optional<std::uint8_t> code_;
 };
 
-/// Why a macro aborted by itself; empty where it did not.
+/// Why a macro aborted by itself; empty if it did not.
 std::string_view why(const vm::event::MacroEnd& end) {
   switch (end.reason) {
   case vm::event::MacroEnd::Reason::Ended:
@@ -81,7 +81,7 @@ Reason reason_of(const vm::Ball& ball, const Watcher& watcher, Instant limit) {
   return Reason::End;
 }
 
-/// What a run that came to no end by itself waits for.
+/// What an unfinished run waits for.
 std::string waits_for(Reason reason, std::span<const Input> inputs, const Options& options,
                       const vm::Ball& ball) {
   if (reason == Reason::Input)
@@ -114,8 +114,8 @@ Ending ending_of(std::span<const Input> inputs, const Options& options, const Wa
 
 } // namespace
 
-struct Live::State {
-  State(std::span<const Input> all, const Options& given, Listener& hears, report::Journey* notes)
+struct Live::Impl {
+  Impl(std::span<const Input> all, const Options& given, Listener& hears, report::Journey* notes)
       : inputs(all), options(given), listener(hears), journey(notes), load(load_of(all)),
         watcher(load, options, listener, journey), ball(options_of_ball()), transport(ball),
         session(transport, {}, 0) {}
@@ -129,7 +129,7 @@ struct Live::State {
   }
 
   tl::expected<void, Failure> begin();
-  /// The greatest duration for `never`.
+  /// Returns Duration::max() for `never`.
   Duration since_start(Instant at) const {
     return at == never ? Duration::max() : at - watcher.start();
   }
@@ -149,10 +149,10 @@ struct Live::State {
   uploader::Session session;
   Started started = Started::Yes;
   Instant limit{};
-  Answer answer;
+  StartAnswer answer;
 };
 
-tl::expected<void, Failure> Live::State::begin() {
+tl::expected<void, Failure> Live::Impl::begin() {
   if (options.robot != nullptr)
     ball.become(*options.robot);
   if (auto done = upload(load, options, ball, session); !done)
@@ -168,13 +168,13 @@ tl::expected<void, Failure> Live::State::begin() {
   return {};
 }
 
-/// Whether the ball rolls out: until it rests, or something that it runs into starts a macro.
-bool Live::State::rolls() const {
+/// Returns true if the ball is rolling out. It may still hit something that starts a macro.
+bool Live::Impl::rolls() const {
   return options.until == Until::Rest && ball.quiet() && ball.body().moving();
 }
 
-bool Live::State::advance(Instant target, vm::Ball::Halt halt) {
-  constexpr Duration glance = 100ms; // a ball that rolls out is looked at that often
+bool Live::Impl::advance(Instant target, vm::Ball::Halt halt) {
+  constexpr Duration glance = 100ms; // polling interval while the ball rolls out
   if (started == Started::Refused || watcher.is_over_early() || ball.now() >= limit)
     return false;
   target = std::min(target, limit);
@@ -197,7 +197,7 @@ bool Live::State::advance(Instant target, vm::Ball::Halt halt) {
   return true;
 }
 
-tl::expected<Ending, Failure> Live::State::finish() {
+tl::expected<Ending, Failure> Live::Impl::finish() {
   if (started == Started::Refused || answer.refused())
     return tl::unexpected(refusal(load, options));
   const auto ending = so_far();
@@ -208,97 +208,97 @@ tl::expected<Ending, Failure> Live::State::finish() {
   return ending;
 }
 
-Live::Live(std::unique_ptr<State> state) : state_(std::move(state)) {}
+Live::Live(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 Live::~Live() = default;
 
 tl::expected<std::unique_ptr<Live>, Failure> Live::start(std::span<const Input> inputs,
                                                          const Options& options, Listener& listener,
                                                          report::Journey* journey) {
-  auto state = std::make_unique<State>(inputs, options, listener, journey);
-  if (auto why = objection(state->load))
+  auto impl = std::make_unique<Impl>(inputs, options, listener, journey);
+  if (auto why = objection(impl->load))
     return tl::unexpected(*std::move(why));
-  if (auto begun = state->begin(); !begun)
+  if (auto begun = impl->begin(); !begun)
     return tl::unexpected(begun.error());
-  return std::unique_ptr<Live>(new Live(std::move(state)));
+  return std::unique_ptr<Live>(new Live(std::move(impl)));
 }
 
 bool Live::advance(Duration t, vm::Ball::Halt halt) {
-  return state_->advance(state_->watcher.start() + t, halt);
+  return impl_->advance(impl_->watcher.start() + t, halt);
 }
 
 void Live::wait(Duration t, vm::Ball::Halt halt) {
-  state_->ball.advance_to(std::max(state_->ball.now(), state_->watcher.start() + t), halt);
+  impl_->ball.advance_to(std::max(impl_->ball.now(), impl_->watcher.start() + t), halt);
 }
 
 void Live::keep_waiting() {
-  state_->watcher.keep_waiting();
+  impl_->watcher.keep_waiting();
 }
 
 void Live::stop() {
-  state_->watcher.stop();
+  impl_->watcher.stop();
 }
 
 void Live::give(std::int32_t number) {
-  state_->ball.queue_input(number);
+  impl_->ball.queue_input(number);
 }
 
 void Live::apply(const vm::Stimulus& stimulus) {
-  state_->ball.apply(stimulus);
+  impl_->ball.apply(stimulus);
 }
 
 void Live::meet(const vm::Shove& shove, std::span<const std::string> names) {
-  state_->ball.meet(shove, names);
+  impl_->ball.meet(shove, names);
 }
 
 bool Live::coast(Duration t) {
-  return state_->ball.coast(state_->watcher.start() + t);
+  return impl_->ball.coast(impl_->watcher.start() + t);
 }
 
 Duration Live::next_push() const {
-  return state_->since_start(state_->ball.next_push());
+  return impl_->since_start(impl_->ball.next_push());
 }
 
 bool Live::over_early() const {
-  return state_->watcher.is_over_early();
+  return impl_->watcher.is_over_early();
 }
 
 void Live::feel(const vm::Sample& sample) {
-  auto& ball = state_->ball;
+  auto& ball = impl_->ball;
   ball.feel(sample);
-  if (state_->options.steps == Steps::Heard) // this is how a robot elsewhere moves on
-    state_->watcher.on_step(ball.now(), ball.body());
+  if (impl_->options.steps == Steps::Heard) // a remote robot takes no steps, but sends samples
+    impl_->watcher.on_step(ball.now(), ball.body());
 }
 
 void Live::feel(const vm::event::Collision& collision) {
-  state_->ball.feel(collision);
+  impl_->ball.feel(collision);
 }
 
 Duration Live::next_event() const {
-  return state_->since_start(state_->ball.next_event());
+  return impl_->since_start(impl_->ball.next_event());
 }
 
 Duration Live::time() const {
-  return state_->ball.now() - state_->watcher.start();
+  return impl_->ball.now() - impl_->watcher.start();
 }
 
 const vm::Ball& Live::ball() const {
-  return state_->ball;
+  return impl_->ball;
 }
 
 bool Live::waits_for_number() const {
-  return state_->ball.machine().waits_for_input() && !state_->ball.input_queued();
+  return impl_->ball.machine().waits_for_input() && !impl_->ball.input_queued();
 }
 
 bool Live::rolls_out() const {
-  return state_->rolls();
+  return impl_->rolls();
 }
 
 Ending Live::so_far() const {
-  return state_->so_far();
+  return impl_->so_far();
 }
 
 tl::expected<Ending, Failure> Live::finish() {
-  return state_->finish();
+  return impl_->finish();
 }
 
 } // namespace orb::run

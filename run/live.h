@@ -10,59 +10,60 @@
 
 namespace orb::run {
 
-/// A run that is handed its time bit by bit, while the world, or a person, does things to the ball.
-/// run() is one of these that goes on to its end.
+/// A run that the caller advances step by step, while the world or a person acts on the ball. run()
+/// advances one to its end.
 class Live {
 public:
-  /// Brings everything into a ball and starts it. All that is handed in outlives the run.
+  /// Uploads everything into a ball and starts it. All arguments must outlive the run.
   static tl::expected<std::unique_ptr<Live>, Failure> start(std::span<const Input> inputs,
                                                             const Options& options,
                                                             Listener& listener,
                                                             report::Journey* journey);
   ~Live();
 
-  /// Goes on to robot time `t` since the start, or less far; false: the run is over.
+  /// Advances toward robot time `t` since the start, perhaps not all the way. Returns false if the
+  /// run is over.
   bool advance(Duration t, vm::Ball::Halt halt = vm::Ball::Halt::Look);
-  /// Time passes to `t` though the run may be over: while the program waits for a number.
+  /// Lets time pass to `t` even if the run may be over: while the program waits for a number.
   void wait(Duration t, vm::Ball::Halt halt = vm::Ball::Halt::Look);
-  /// From now on a program that waits for a number is not over: give() may bring it.
+  /// A program that waits for a number no longer ends the run: give() may supply it.
   void keep_waiting();
-  /// From now on it is over.
+  /// Ends the run.
   void stop();
 
   void give(std::int32_t number); ///< for `input`
   void apply(const vm::Stimulus& stimulus);
 
-  /// Other balls of its room press on it or have run into it, at time().
+  /// Applies contact with other balls of the room, at time().
   void meet(const vm::Shove& shove, std::span<const std::string> names);
-  /// As vm::Ball has them; times since the start.
+  /// As in vm::Ball; times count from the start.
   bool coast(Duration t);
   Duration next_push() const;
-  /// It has printed what was looked for.
+  /// Returns true if the sought text was printed, or the run was stopped.
   bool over_early() const;
 
-  /// What the robot elsewhere says, at time().
+  /// Takes news from the remote robot, at time().
   void feel(const vm::Sample& sample);
   void feel(const vm::event::Collision& collision);
 
   Duration time() const; ///< since the start
-  /// When something happens next by itself, since the start; the greatest duration for never.
+  /// The next event, since the start; Duration::max() if there is none.
   Duration next_event() const;
   const vm::Ball& ball() const;
   bool waits_for_number() const;
-  /// Nothing runs any more, and the ball still rolls.
+  /// Returns true if nothing runs any more but the ball still rolls.
   bool rolls_out() const;
-  /// How it would end now.
+  /// The ending if the run stopped now.
   Ending so_far() const;
 
-  /// How it ended; nothing can be done with the run after that.
+  /// Ends the run and returns its ending. The run must not be used afterwards.
   tl::expected<Ending, Failure> finish();
 
 private:
-  struct State;
-  explicit Live(std::unique_ptr<State> state);
+  struct Impl;
+  explicit Live(std::unique_ptr<Impl> impl);
 
-  std::unique_ptr<State> state_;
+  std::unique_ptr<Impl> impl_;
 };
 
 } // namespace orb::run

@@ -13,7 +13,7 @@ namespace {
 using compiler::ItemKind;
 using compiler::NodeKind;
 
-/// Calls `call` with the number of each line that runs and its statements.
+/// Calls `call` with the number and statements of each line that runs.
 template <class Call>
 void each_line(const compiler::Program& program, Call call) {
   for (const auto& line : program.lines)
@@ -42,7 +42,7 @@ NamedValues::NamedValues(const Program& program, report::Journey& journey) {
   journey.set_variables(known);
 }
 
-/// Only a line that sets a letter can change it.
+/// A letter can change only in lines that set it.
 void NamedValues::take_letters(const compiler::Program& program, Known& known) {
   std::map<std::uint32_t, std::size_t> variables;
   each_line(program, [&](int number, auto statements) {
@@ -53,7 +53,7 @@ void NamedValues::take_letters(const compiler::Program& program, Known& known) {
         const auto [at, fresh] = variables.try_emplace(item.value, known.size());
         if (fresh)
           known.emplace_back(std::string(1, spec::letter_name(item.value)), "");
-        lines_[number].held.push_back({item.value, at->second});
+        lines_[number].bindings.push_back({item.value, at->second});
       }
   });
 }
@@ -74,11 +74,11 @@ void NamedValues::take_symbols(const structured::Compiled& compiled, Known& know
                                                      : std::string(compiled.program.name(
                                                            compiled.names.symbols[owner].name)));
       }
-      lines_[static_cast<int>(line.number)].held.push_back({letter, at->second});
+      lines_[static_cast<int>(line.number)].bindings.push_back({letter, at->second});
     }
 }
 
-/// The elements of arrays, or of Z where the program has numbers, once a line sets any.
+/// Adds array elements, or elements of Z in a numbered program, if any line sets one.
 void NamedValues::take_elements(const compiler::Program& program,
                                 const structured::Compiled* compiled, Known& known) {
   bool any = false;
@@ -109,7 +109,7 @@ void NamedValues::line_ended(Duration t, int line, const vm::Machine& machine,
   const auto found = lines_.find(line);
   if (found == lines_.end())
     return;
-  for (const auto& [place, variable] : found->second.held)
+  for (const auto& [place, variable] : found->second.bindings)
     journey.note(t, variable, machine.variable(place));
   if (!found->second.sets_element)
     return;

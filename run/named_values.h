@@ -12,24 +12,24 @@
 
 namespace orb::run {
 
-/// Follows the variables of a program by their names in the source: after each line it reads those
-/// that the line names. A letter of the robot may serve one variable here and another there.
+/// Tracks the variables of a program by their source names: reads after each line those that the
+/// line may set. One robot letter may hold different variables in different lines.
 class NamedValues {
 public:
-  /// Tells the journey which variables there are. The program must outlive this.
+  /// Adds the variables to the journey. The program must outlive this object.
   NamedValues(const Program& program, report::Journey& journey);
 
-  /// A line of the robot has ended.
+  /// Called after each robot line.
   void line_ended(Duration t, int line, const vm::Machine& machine, report::Journey& journey) const;
 
 private:
-  struct Held {
-    std::size_t place = 0;    ///< of the machine
-    std::size_t variable = 0; ///< of the journey
+  struct RegisterBinding {
+    std::size_t place = 0;    ///< register of the machine
+    std::size_t variable = 0; ///< index in the journey
   };
   struct Names {
-    std::vector<Held> held;
-    bool sets_element = false; ///< one of Z: which, Y says
+    std::vector<RegisterBinding> bindings;
+    bool sets_element = false; ///< an element of Z, selected by Y
   };
   using Known = std::vector<std::pair<std::string, std::string>>; ///< names and owners
 
@@ -39,7 +39,7 @@ private:
                      Known& known);
 
   std::unordered_map<int, Names> lines_;
-  std::map<std::size_t, std::size_t> elements_; ///< by number: the variable of the journey
+  std::map<std::size_t, std::size_t> elements_; ///< by element number: index in the journey
 };
 
 } // namespace orb::run

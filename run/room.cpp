@@ -15,7 +15,7 @@
 namespace orb::run {
 namespace {
 
-/// Hands on what one ball does; when the run may end is for the room to say.
+/// Forwards the events of one ball. enough() stays false, because the room decides when to end.
 class Ear final : public Listener {
 public:
   explicit Ear(Listener& listener) : listener_(listener) {}
@@ -29,13 +29,13 @@ private:
   Listener& listener_;
 };
 
-/// A ball of a room while it lives.
+/// A ball of a room while it runs.
 class Inhabitant final : public vm::Resident {
 public:
   explicit Inhabitant(const RoomBall& ball)
       : ball_(ball), options_(ball.options), ear_(*ball.listener) {
     options_.among = Among::Others;
-    options_.until = Until::Rest; // what others do to it afterwards is seen
+    options_.until = Until::Rest; // later effects of other balls must be visible
     options_.steps = Steps::Ignored;
   }
 
@@ -76,13 +76,13 @@ public:
 
   const RoomBall& ball() const { return ball_; }
   const vm::Body& body() const { return live_->ball().body(); }
-  /// Something of it still runs, or, where that is awaited, it still rolls.
+  /// Returns true if the ball still runs, or still rolls and that matters.
   bool busy() const {
     const bool rolls = ball_.options.until == Until::Rest && body().moving();
     return !live_->ball().quiet() || rolls;
   }
   bool over_early() const { return live_->over_early(); }
-  /// It ends, though something of it may still run.
+  /// Ends the ball even if it still runs.
   void stop() {
     if (busy())
       live_->stop();
@@ -93,7 +93,7 @@ public:
   }
 
 private:
-  /// A slice ends, or the run.
+  /// The next end of a slice, or of the run.
   Duration look_after(Duration t) const {
     const auto slice_end = t - t % options_.slice + options_.slice;
     return t < options_.bound ? std::min(slice_end, options_.bound) : slice_end;
@@ -110,7 +110,7 @@ private:
   Duration next_look_ = look_after({});
 };
 
-/// All balls, by their names.
+/// All balls, ordered by name.
 using Inhabitants = std::vector<std::unique_ptr<Inhabitant>>;
 
 template <class Holds>
@@ -118,7 +118,7 @@ bool any(const Inhabitants& all, Holds holds) {
   return std::any_of(all.begin(), all.end(), [&](const auto& one) { return holds(*one); });
 }
 
-/// Lets all go on to `t`, and those hear of each step who want to.
+/// Advances all balls to `t` and reports steps to the listeners that want them.
 void advance(vm::Room& room, const Inhabitants& all, Duration t) {
   const bool steps =
       any(all, [](const Inhabitant& one) { return one.ball().options.steps == Steps::Heard; });
@@ -136,7 +136,7 @@ void live_on(vm::Room& room, const Inhabitants& all) {
   const auto& options = all.front()->ball().options;
   const auto bound = options.bound == Duration{} ? Duration::max() : options.bound;
   const bool looks = !options.expect.empty() || !options.fail_text.empty();
-  constexpr Duration glance = 10ms; // so soon after one has printed what is looked for all stop
+  constexpr Duration glance = 10ms; // all stop this soon after one has printed the sought text
   const auto piece = looks ? glance : options.slice;
   while (room.now() < bound && any(all, [](const auto& one) { return one.busy(); }) &&
          !any(all, [](const auto& one) { return one.over_early(); }) &&
@@ -147,7 +147,7 @@ void live_on(vm::Room& room, const Inhabitants& all) {
       one->stop();
 }
 
-/// The distance from a place to the middle of a wall.
+/// Distance from a place to the middle of a wall.
 double distance_cm(vm::Point place, const vm::Wall& wall) {
   switch (wall.axis) {
   case vm::Wall::Axis::X: return std::abs(place.x - wall.at_cm);
@@ -158,7 +158,7 @@ double distance_cm(vm::Point place, const vm::Wall& wall) {
   return std::hypot(place.x - nearest.x, place.y - nearest.y);
 }
 
-/// What stands there as the run begins.
+/// The walls at the start of the run.
 std::vector<vm::Wall> first_walls(const Options& options) {
   std::vector<vm::Wall> walls;
   if (options.course != nullptr)
@@ -171,7 +171,7 @@ std::vector<vm::Wall> first_walls(const Options& options) {
 }
 
 std::optional<Clash> clash_of(std::span<const RoomBall> balls, std::size_t i) {
-  constexpr double least = 1e-9; // cm: what rounding leaves of balls that touch
+  constexpr double least = 1e-9; // cm: rounding errors of balls that touch
   const auto place = balls[i].options.start.place;
   for (std::size_t j = 0; j < i; ++j) {
     const auto other = balls[j].options.start.place;

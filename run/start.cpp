@@ -34,11 +34,11 @@ uploader::MacroJob job_of(const Macro& macro) {
 tl::expected<void, Failure> deliver(const Load& load, const Options& options,
                                     uploader::Session& session) {
   uploader::Delivery delivery;
-  // The last temporary macro stays, and the first is the one to run.
+  // Reverse order: the last temporary macro remains, and the first is the one to run.
   for (auto macro = load.macros.rbegin(); macro != load.macros.rend(); ++macro)
-    if (auto job = job_of(**macro); job.kind != uploader::MacroKind::Stream) // see start()
+    if (auto job = job_of(**macro); job.kind != uploader::MacroKind::Stream) // see start_macro()
       delivery.macros.push_back({(*macro)->name, std::move(job)});
-  // Flash first: on its way there a program passes through RAM.
+  // Flash first: a program reaches it through RAM.
   for (const auto there : {spec::Area::Flash, spec::Area::Ram})
     for (std::size_t i = 0; i < load.programs.size(); ++i) {
       if (area_of(i, options) != there)
@@ -54,7 +54,7 @@ tl::expected<void, Failure> deliver(const Load& load, const Options& options,
   return delivery.macros.empty() ? tl::expected<void, Failure>() : deliver(session, delivery);
 }
 
-/// Sends one packet at this very instant.
+/// Sends one packet at the present instant.
 void send_now(vm::Ball& ball, spec::ApiCommand command, Bytes data) {
   ball.receive(protocol::encode(protocol::make_command(command, std::move(data))));
 }
@@ -84,7 +84,7 @@ Started start_program(const Program& program, const Options& options, vm::Ball& 
   return Started::Yes;
 }
 
-/// What the world does to the ball.
+/// Schedules the effects of the world on the ball.
 void schedule(const Options& options, vm::Ball& ball) {
   if (options.course != nullptr)
     ball.schedule(options.course->stimuli());
@@ -192,13 +192,13 @@ Failure refusal(const Load& load, const Options& options) {
 
 void describe(std::span<const Input> inputs, const Options& options, report::Journey& journey) {
   journey.set_robot(options.model);
-  // Programs before macros, which they may bring with them: a page opens on the first file.
+  // Programs before the macros they may bring with them: a page opens on the first file.
   std::vector<const Input*> ordered;
   for (const auto& input : inputs)
     ordered.push_back(&input);
   std::stable_partition(ordered.begin(), ordered.end(),
                         [](const Input* one) { return one->program.has_value(); });
-  bool first = true; // of two programs the lines of the second are told by their number alone
+  bool first = true; // only the first of two programs is mapped to its source
   for (const auto* one : ordered) {
     const auto& input = *one;
     const auto& source = *input.source;
@@ -211,7 +211,8 @@ void describe(std::span<const Input> inputs, const Options& options, report::Jou
     for (const auto& other : input.included)
       journey.add_file(other->name(), std::string(other->text()));
     if (input.program && std::exchange(first, false)) {
-      journey.tell_places(input.program->compiled ? report::Told::Source : report::Told::RobotLine);
+      journey.set_error_place(input.program->compiled ? report::ErrorPlace::Source
+                                                      : report::ErrorPlace::RobotLine);
       for (const auto& [line, place] : input.program->lines.places)
         journey.map_line(static_cast<int>(line),
                          {file + static_cast<int>(place.file), static_cast<int>(place.line)});

@@ -11,12 +11,12 @@
 #include <tl/expected.hpp>
 #include <vector>
 
-// How a run begins: run() does it once and lets the ball live, a debugger keeps the ball that has
-// just begun.
+// How a run begins. run() starts it once and simulates the ball; a debugger keeps the freshly
+// started ball.
 
 namespace orb::run {
 
-/// The programs and macros of all inputs, in their order.
+/// The programs and macros of all inputs, in order.
 struct Load {
   struct ProgramOf {
     const Input* input;
@@ -27,33 +27,34 @@ struct Load {
 };
 Load load_of(std::span<const Input> inputs);
 
-/// Where the programs go: the first to where the options say, a second one to the other area.
+/// Returns the area for a program: the first goes where the options say, a second one to the other
+/// area.
 spec::Area area_of(std::size_t program, const Options& options);
 
-/// That the inputs cannot be run; nothing where they can.
+/// Returns why the inputs cannot be run; nullopt if they can.
 std::optional<Failure> objection(const Load& load);
 
-/// The ball that the options ask for; nobody watches it yet.
+/// Returns the ball's options, without observers.
 vm::BallOptions ball_options(const Options& options);
 
-/// Whether the first macro plays while it arrives.
+/// Returns true if the first macro plays while it arrives.
 bool streams(const Load& load);
 
-/// Brings everything into the ball the way any client would. It ends at a whole second, so that
-/// times in a trace do not depend on how long that took.
+/// Uploads everything as any client would. Ends at a whole second, so that trace times do not
+/// depend on the duration of the upload.
 tl::expected<void, Failure> upload(const Load& load, const Options& options, vm::Ball& ball,
                                    uploader::Session& session);
 
-/// What a start without a client came to; with one, the answer tells.
+/// Result of a start without a client. With a client, the ball's answer tells.
 enum class Started : std::uint8_t { Yes, Refused };
 
-/// Lets the world act from now on, and starts the program or the macro.
+/// Schedules the effects of the world and starts the program or macro.
 Started start(const Load& load, const Options& options, vm::Ball& ball, uploader::Session& session);
 
-/// Why the ball does not start what it was given.
+/// Returns why the ball does not start the program or macro.
 Failure refusal(const Load& load, const Options& options);
 
-/// Tells the journey which files there are and where the robot's lines and commands stand in them.
+/// Adds the files to the journey and maps robot lines and commands to places in them.
 void describe(std::span<const Input> inputs, const Options& options, report::Journey& journey);
 
 } // namespace orb::run

@@ -2,7 +2,7 @@
 
 #include "base/texts.h"
 
-/// What is said of why a program stopped: `texts::ToRepeat(line)`.
+/// The texts that explain why a program stopped: `texts::ToRepeat(line)`.
 namespace orb::run::texts {
 
 using namespace orb::texts;

@@ -8,7 +8,7 @@
 namespace orb::run {
 namespace {
 
-/// Where the robot's lines stand in a program whose source has no numbers.
+/// Source places of the robot's lines, if the source has no numbers.
 report::LinePlaces places(std::span<const Input> inputs) {
   report::LinePlaces places;
   const auto* first = first_with_program(inputs);

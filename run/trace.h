@@ -10,7 +10,7 @@
 
 namespace orb::run {
 
-/// Writes the trace of a run, with what a run knows of its sources and of why it faulted.
+/// Writes the trace of a run, with source places and explanations of faults.
 class Trace {
 public:
   Trace(report::TraceFormat format, report::TraceLines lines, std::span<const Input> inputs,

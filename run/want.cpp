@@ -14,7 +14,8 @@ bool is_one_of(const vm::Stimulus& event) {
   return (std::holds_alternative<Kinds>(event) || ...);
 }
 
-/// A sensor that only the world or a client changes, and the line of a stimulus script that does.
+/// A sensor that changes only by an outside event, and the line of a stimulus script that causes
+/// it.
 struct Sensor {
   spec::Variable variable;
   std::string_view what;
@@ -52,7 +53,7 @@ bool comes(const Options& options, bool (*brings)(const vm::Stimulus&)) {
                      [&](const auto& event) { return brings(event.stimulus); });
 }
 
-/// The robot's number of the line that holds the byte `offset`.
+/// Returns the robot's line number at byte `offset`.
 std::uint32_t line_at(const compiler::Program& program, std::uint32_t offset) {
   const auto line = std::find_if(program.lines.begin(), program.lines.end(),
                                  [&](const auto& one) { return offset < one.span.end; });

@@ -11,17 +11,17 @@
 
 namespace orb::run {
 
-/// What a program looks for in the world that these options do not bring about.
+/// Something a program waits for that these options never provide.
 struct Want {
-  std::uint32_t line = 0; ///< the robot's number of the first line that looks
+  std::uint32_t line = 0; ///< the robot's number of the first line that waits
   std::string_view what;  ///< `a shake`
-  std::string advice;     ///< a sentence that says so and ends in the option to type
-  std::string lack;       ///< the sentence alone
-  bool answers = false;   ///< a number, which a client can give anywhere
-  std::string_view event; ///< what is missing as a line of a stimulus script, but its time: `shake`
+  std::string advice;     ///< the sentence `lack`, extended by the option to type
+  std::string lack;       ///< a sentence that says what is missing
+  bool answers = false;   ///< it is a number, which a client can give at any time
+  std::string_view event; ///< the missing line of a stimulus script without its time: `shake`
 };
 
-/// The first thing that the first program waits for, or reads, in vain.
+/// Returns the first thing that the first program waits for, or reads, in vain.
 std::optional<Want> want(std::span<const Input> inputs, const Options& options);
 
 } // namespace orb::run

@@ -33,7 +33,9 @@ private:
   bool seen_ = false;
 };
 
-/// Sees everything that happens from the start of the program to its end, and hands it on.
+/// Observes a ball from the start of the program to its end and forwards its events. Large because
+/// it collects, in one pass over the events, everything that the ending and the report say about a
+/// run.
 class Watcher final : public vm::Observer, public vm::StepObserver {
 public:
   Watcher(const Load& load, const Options& options, Listener& listener, report::Journey* journey)
@@ -41,10 +43,10 @@ public:
         listener_(listener), journey_(journey), expected_(options.expect),
         forbidden_(options.fail_text) {}
 
-  /// From when on the ball's events are those of the run.
+  /// When the ball's events begin to belong to the run.
   enum class From : std::uint8_t {
     Now,
-    FirstCommand, ///< of a macro that plays while it arrives
+    FirstCommand, ///< for a macro that plays while it arrives
   };
   void begin(vm::Ball& ball, From from) {
     if (journey_ != nullptr && !load_.programs.empty())
@@ -52,7 +54,7 @@ public:
     ball_ = &ball;
     start_ = ball.now();
     from_ = from;
-    if (among_ == Among::Others && journey_ != nullptr) // one that stays where it is stands there
+    if (among_ == Among::Others && journey_ != nullptr) // even a ball that never moves has a place
       journey_->add({}, vm::event::Position{ball.body().world_pose()});
   }
 
@@ -72,14 +74,14 @@ public:
     stop_if_enough();
   }
 
-  /// It ends though something still runs.
+  /// Returns true if the run ends although something still runs.
   bool is_over_early() const { return enough_ || seen() != Sought::Nothing; }
   void stop() { enough_ = true; }
-  /// Somebody is there who may give the number that it waits for.
+  /// A number that the program waits for may still be given.
   void keep_waiting() { waits_on_ = true; }
 
   Instant start() const { return start_; }
-  std::optional<Instant> over() const { return over_; } ///< since then nothing runs any more
+  std::optional<Instant> over() const { return over_; } ///< when everything had finished
   Sought seen() const {
     return forbidden_.seen()  ? Sought::Forbidden
            : expected_.seen() ? Sought::Expected
@@ -90,7 +92,7 @@ public:
   const std::optional<vm::event::MacroEnd>& macro_end() const { return macro_end_; }
   std::uint64_t lines() const { return lines_; }
   std::uint64_t commands() const { return commands_; }
-  /// What there was to see, up to now.
+  /// What could be seen of the ball so far.
   Sight sight() const {
     Sight seen = sight_;
     const auto& body = ball_->body();
@@ -114,7 +116,7 @@ private:
       start_ = at;
       from_ = From::Now;
     }
-    // Of what goes on afterwards only how it ended counts.
+    // After the end only events that belong to the ending count.
     const bool was_idle = ball_->idle() && !may_be_answered();
     if (!take(event) && was_idle) {
       over_ = at;
@@ -126,7 +128,7 @@ private:
     tell(at - start_, event);
   }
 
-  /// After the end of the program only what the ball's motion leads to counts.
+  /// After the program's end only the effects of the ball's motion count.
   void roll_out(Instant at, const vm::Event& event) {
     if (until_ == Until::Rest && (std::holds_alternative<vm::event::Bump>(event) ||
                                   std::holds_alternative<vm::event::Position>(event)))
@@ -159,7 +161,7 @@ private:
     journey_->sample(t, ball_->body());
   }
 
-  /// Notes what the ending is made of; whether the event is part of it even after the program.
+  /// Collects data for the ending. Returns true if the event counts even after the program.
   bool take(const vm::Event& event) {
     if (const auto* print = std::get_if<vm::event::Print>(&event)) {
       expected_.take(print->text);
@@ -180,7 +182,7 @@ private:
     return false;
   }
 
-  /// The error with what the source and the machine, which still stands there, say of it.
+  /// Adds an error, explained by the source and by the machine, which is still in that state.
   const ProgramError& add_fault(const vm::event::Error& error) {
     return faults_.emplace_back(run::explain(*load_.programs[in_first_program() ? 0 : 1].input,
                                              error.line, error.code, &ball_->machine()));
@@ -222,7 +224,7 @@ private:
   bool waits_on_ = false;
   Listener& listener_;
   report::Journey* journey_;
-  std::optional<NamedValues> names_; ///< for the journey, of the first program
+  std::optional<NamedValues> names_; ///< values for the journey, of the first program
   Search expected_;
   Search forbidden_;
   std::vector<ProgramError> faults_;

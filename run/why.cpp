@@ -17,10 +17,10 @@ namespace rules = compiler::rules;
 using compiler::ItemKind;
 using spec::Statement;
 
-/// A ball that was told to roll and came no further did not do what was meant.
+/// A ball that was told to roll and came no farther than this did not do what was intended.
 constexpr std::uint64_t hardly_cm = 5;
 
-/// The rules that can explain an ending, the likeliest first.
+/// The rules that can explain an ending, most likely first.
 std::vector<const Rule*> suspects(const Ending& ending) {
   const auto& sight = ending.sight;
   if (ending.reason == Reason::TimeLimit)
@@ -39,12 +39,12 @@ std::string sentence(const std::string& where, const std::string& seen, const st
   return fmt::format("{}: {}{}{}", where, seen, help.empty() ? "" : "; ", help);
 }
 
-/// The first of these findings that one of the rules makes; null where none does.
+/// Returns the first finding of one of the rules; null if there is none.
 const Diagnostic* find(std::span<const Diagnostic> findings, std::span<const Rule* const> wanted) {
   for (const auto* rule : wanted) {
     const auto found = std::find_if(findings.begin(), findings.end(), [&](const Diagnostic& one) {
-      // Of colours only those that another one replaces: the last
-      // one is what the run shows at its end.
+      // Of colour findings only those about a replaced colour: the last one is visible at the end
+      // of the run.
       return one.rule == rule && (rule != &rules::MissingDelay || !one.notes.empty());
     });
     if (found != findings.end())
@@ -67,7 +67,7 @@ std::string from_linter(const Input& input, const Ending& ending) {
   return sentence(where, in_english(found->message), in_english(found->help));
 }
 
-/// A macro that the program starts by its number and that nobody has brought.
+/// Describes a macro that the program starts by number and that was not supplied.
 std::string missing_macro(const Program& program, const Load& load) {
   const auto& parsed = program.parsed;
   for (const auto& line : parsed.lines) {
@@ -97,7 +97,7 @@ bool sets(const compiler::Program& parsed, spec::Variable timer) {
   });
 }
 
-/// Whether a line jumps to itself as long as its comparison holds.
+/// Returns true if a line jumps to itself while its comparison holds.
 bool waits(const compiler::Program& parsed, const compiler::Line& line) {
   const auto& statement = parsed.statements[line.statement];
   if (statement.error || statement.kind != Statement::If)
@@ -107,7 +107,7 @@ bool waits(const compiler::Program& parsed, const compiler::Line& line) {
          parsed.items_of(branch)[0].value == line.number;
 }
 
-/// A line that waits for a timer which nothing sets.
+/// Describes a line that waits for a timer which is never set.
 std::string unset_timer(const Program& program) {
   const auto& parsed = program.parsed;
   for (const auto& line : parsed.lines) {

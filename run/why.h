@@ -8,9 +8,9 @@
 
 namespace orb::run {
 
-/// Why a run came to what was seen of it, as far as the linter knows, with the line to write:
-/// "line 20: `delay 2` waits 2 milliseconds; for 2 seconds, write `delay 2000`". Empty where it
-/// ended as it should, or nobody knows.
+/// Explains an ending as far as the linter can, with the line to write: "line 20: `delay 2` waits 2
+/// milliseconds; for 2 seconds, write `delay 2000`". Empty if the run ended as it should, or the
+/// cause is unknown.
 std::string why(std::span<const Input> inputs, const Ending& ending);
 
 } // namespace orb::run

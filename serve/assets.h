@@ -4,7 +4,7 @@
 
 namespace orb::serve {
 
-// drive.html, drive.css and the modules of drive/ as one script, put into the program by the build.
+// drive.html, drive.css and the modules of drive/ as one script, embedded by the build.
 extern const std::string_view page_html;
 extern const std::string_view page_css;
 extern const std::string_view page_js;

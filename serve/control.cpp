@@ -16,9 +16,8 @@ namespace {
 
 constexpr std::string_view reset_word = "reset";
 constexpr std::string_view state_word = "state";
-constexpr std::string_view at_now = "at now ";
 
-/// The word in front of the others.
+/// Returns what precedes the first blank. The text must not begin with one.
 std::string_view first_word(std::string_view text) {
   return text.substr(0, text.find_first_of(" \t"));
 }
@@ -34,20 +33,15 @@ std::string not_a_line(std::string_view word) {
 }
 
 tl::expected<decltype(Control::what), std::string> read_event(std::string_view text) {
-  const bool is_later = text.starts_with("at ") && !text.starts_with(at_now);
-  const Source source("control",
-                      std::string(text.starts_with(at_now) ? text.substr(at_now.size()) : text));
-  vm::StimulusScript script;
-  vm::read_stimulus_line(source, 1, script);
-  if (!script.diagnostics.empty()) {
+  const auto [script, at_once] = vm::read_live_stimulus(text);
+  if (!script.diagnostics.empty())
     return tl::unexpected(to_printable(in_one_line(script.diagnostics.front())));
-  }
   if (script.events.empty())
     return tl::unexpected(not_a_line(text));
   const auto& event = script.events.front();
-  if (is_later)
-    return event;
-  return Control::Now{event.stimulus};
+  if (at_once)
+    return Control::Now{event.stimulus};
+  return event;
 }
 
 } // namespace
@@ -75,7 +69,7 @@ tl::expected<std::optional<Control>, std::string> parse_control(std::string_view
     if (text == reset_word)
       control.what = Control::Reset{};
     else
-      control.what = Control::State{};
+      control.what = Control::StateQuery{};
     return control;
   }
   if (word == reset_word || word == state_word)

@@ -10,20 +10,20 @@
 
 namespace orb::serve {
 
-/// What a line of control asks of served balls: `shake`, `at 2s push 90 120`, `2 reset`, `state`.
+/// A control line for served balls: `shake`, `at 2s push 90 120`, `2 reset`, `state`.
 struct Control {
   struct Now {
     vm::Stimulus stimulus;
   };
   struct Reset {};
-  struct State {};
+  struct StateQuery {};
 
-  std::optional<int> ball;                                 ///< from 1; nothing: all of them
-  std::variant<Now, vm::TimedStimulus, Reset, State> what; ///< of a TimedStimulus: since the start
+  std::optional<int> ball;                                      ///< from 1; nullopt: all balls
+  std::variant<Now, vm::TimedStimulus, Reset, StateQuery> what; ///< TimedStimulus: since the start
 };
 
-/// Reads a line that asks something of one of `balls`; nothing for a blank one or a comment. The
-/// error is a sentence that names the line to write.
+/// Parses a control line for one of `balls`; nullopt for a blank line or comment. The error is a
+/// sentence that names the line to write.
 tl::expected<std::optional<Control>, std::string> parse_control(std::string_view line, int balls);
 
 } // namespace orb::serve

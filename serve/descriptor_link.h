@@ -6,7 +6,7 @@
 
 namespace orb::serve {
 
-/// A link by a descriptor of Unix: the master of a pty, a socket.
+/// A link over a Unix descriptor: the master of a pty, a socket.
 class DescriptorLink : public Link {
 public:
   explicit DescriptorLink(asio::io_context& io) : stream_(io) {}

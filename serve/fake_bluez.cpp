@@ -7,6 +7,7 @@
 #include "base/random.h"
 #include "serve/descriptor_link.h"
 #include "serve/private_bus.h"
+#include "vm/common/bluetooth.h"
 
 #include <algorithm>
 #include <array>
@@ -30,12 +31,12 @@ constexpr auto adapter_interface = "org.bluez.Adapter1";
 constexpr auto device_interface = "org.bluez.Device1";
 constexpr auto service_interface = "org.bluez.GattService1";
 constexpr auto characteristic_interface = "org.bluez.GattCharacteristic1";
-constexpr auto agents_interface = "org.bluez.AgentManager1"; // where programs look for BlueZ
+constexpr auto agents_interface = "org.bluez.AgentManager1"; // programs detect BlueZ by it
 constexpr auto agents_path = "/org/bluez";
 constexpr auto adapter_path = "/org/bluez/hci0";
-constexpr auto adapter_address = "00:11:22:33:44:55"; // of nobody
+constexpr auto adapter_address = "00:11:22:33:44:55"; // not assigned to anybody
 
-/// A device is seen before it has told its name.
+/// A device appears before its name is known.
 constexpr auto seen_after = std::chrono::milliseconds{20};
 constexpr auto named_after = std::chrono::milliseconds{20};
 constexpr std::int16_t strongest = -48; // dBm; each further robot is farther away
@@ -51,8 +52,8 @@ sdbus::Error not_connected() {
   return bluez_error("Failed", "Not connected");
 }
 
-/// Tells whoever listens that properties have other values, or none any more. Written by hand,
-/// because a property that is gone sometimes cannot be said otherwise.
+/// Emits changed and removed properties. Written by hand, because removed properties sometimes
+/// cannot be reported otherwise.
 void tell(sdbus::IObject& object, const std::string& interface, const Properties& changed,
           const std::vector<std::string>& gone = {}) {
   auto signal = object.createSignal("org.freedesktop.DBus.Properties", "PropertiesChanged");
@@ -60,7 +61,7 @@ void tell(sdbus::IObject& object, const std::string& interface, const Properties
   object.emitSignal(signal);
 }
 
-/// A property whose value does not change.
+/// Registers a property with a constant value.
 template <class Value>
 void constant(sdbus::IObject& object, const char* interface, const char* name, Value value) {
   object.registerProperty(name).onInterface(interface).withGetter(
@@ -69,7 +70,8 @@ void constant(sdbus::IObject& object, const char* interface, const char* name, V
 
 class Robot;
 
-/// bluetoothd and the adapter.
+/// bluetoothd and the adapter. Large because its robots share the adapter, the bus, the scans and
+/// the faults.
 class Computer final : public FakeBluez {
 public:
   Computer(asio::io_context& io, const protocol::BleFaultPlan& plan)
@@ -85,21 +87,21 @@ public:
 
   void add(Robot& robot) { robots_.push_back(&robot); }
   void remove(Robot& robot) { std::erase(robots_, &robot); }
-  /// How strongly a robot is received.
+  /// Signal strength of a robot.
   std::int16_t strength(const Robot& robot) const;
   bool listens() const { return !listeners_.empty(); }
-  /// Whether the adapter holds one more robot.
+  /// Returns true if the adapter can hold another connection.
   bool has_link() const;
 
   asio::io_context& io() { return io_; }
   const protocol::BleFaultPlan& plan() const { return plan_; }
-  /// What happens to one robot does not happen to all.
+  /// A separate stream per robot, so that faults do not hit all robots alike.
   Random make_random() { return {plan_.seed + made_++}; }
   sdbus::IConnection& connection() { return *connection_; }
 
-  /// Does something later.
+  /// Runs `act` later.
   void after(Duration time, std::function<void()> act);
-  /// The adapter is pulled out.
+  /// Simulates unplugging the adapter.
   void vanish();
 
 private:
@@ -111,26 +113,26 @@ private:
 
   asio::io_context& io_;
   const protocol::BleFaultPlan& plan_;
-  std::uint64_t made_ = 0; ///< robots
+  std::uint64_t made_ = 0; ///< robots so far
   PrivateBus bus_;
   std::unique_ptr<sdbus::IConnection> connection_;
   asio::posix::stream_descriptor socket_;  ///< the connection's own
-  std::unique_ptr<sdbus::IObject> agents_; ///< nobody pairs with a robot
+  std::unique_ptr<sdbus::IObject> agents_; ///< exists only to be found: robots are not paired
   std::unique_ptr<sdbus::IObject> adapter_;
   std::vector<std::string> listeners_; ///< clients that scan
   std::vector<Robot*> robots_;
 };
 
 /// A robot: its device and characteristics on the bus, and the client's end of a link to the ball.
+/// Large because it answers BlueZ's calls, passes on the ball's bytes and injects faults between
+/// them.
 class Robot final : public DescriptorLink {
 public:
   Robot(Computer& computer, std::string name, const std::string& address, spec::BleModel model)
       : DescriptorLink(computer.io()), computer_(computer), name_(std::move(name)), model_(model),
         protocol_(computer.plan().newer ? spec::BleProtocol::V2 : spec::info(model).protocol),
-        random_(computer.make_random()), peer_(computer.io()),
+        address_(vm::with_colons(address)), random_(computer.make_random()), peer_(computer.io()),
         drop_once_(computer.plan().drop_once), balk_once_(computer.plan().balk_once) {
-    for (std::size_t i = 0; i + 1 < address.size(); i += 2)
-      address_ += (i > 0 ? ":" : "") + address.substr(i, 2);
     if (computer_.plan().undriven)
       name_.replace(0, name_.find('-') + 1, spec::info(spec::BleModel::McQueen).prefix);
     path_ = fmt::format("{}/dev_{}", adapter_path, address_);
@@ -151,9 +153,9 @@ public:
   }
   bool can_hang_up() const override { return true; }
 
-  /// It is heard: first without its name.
+  /// Appears in a scan: first without its name.
   void advertise();
-  /// Nobody listens any more, so nobody knows how strongly it is received.
+  /// Removes the signal strength, because no client scans any more.
   void fade();
   void forget(const std::string& client);
   void unpublish();
@@ -162,7 +164,7 @@ public:
 private:
   struct Characteristic {
     std::unique_ptr<sdbus::IObject> object;
-    std::string notified; ///< the client that is notified; empty for none
+    std::string notified; ///< client subscribed to notifications; empty: none
   };
   using Result = sdbus::Result<>;
 
@@ -174,12 +176,12 @@ private:
   void connect(Result&& result);
   void disconnect();
   void resolve();
-  /// Whether the plan ends the link in this step; then it is done.
+  /// Returns true if the plan ends the link in this step. The link has then been ended.
   bool strikes(BleStep step, Result& result);
   bool strikes(BleStep step);
-  /// Whether the plan makes this step fail while the link stays.
+  /// Returns true if the plan makes this step fail but keeps the link.
   bool balks(BleStep step);
-  /// Lets `answer` have the result of a call later.
+  /// Stores the result of a call and passes it to `answer` later.
   void keep(Result&& result, Duration time, std::function<void(Result&)> answer);
 
   void on_write(BleCharacteristic characteristic, const Bytes& value, Result&& result);
@@ -202,17 +204,17 @@ private:
   std::unique_ptr<sdbus::IObject> device_;
   std::vector<std::unique_ptr<sdbus::IObject>> services_;
   std::map<BleCharacteristic, Characteristic> characteristics_;
-  std::array<std::uint8_t, 4096> buffer_{}; // bytes; more than a ball says at once
+  std::array<std::uint8_t, 4096> buffer_{}; // bytes; more than a ball sends at once
   std::optional<BleStep> drop_once_;
   std::optional<BleStep> balk_once_;
-  /// Calls that are not answered yet, by number: none of them may outlive the connection.
+  /// Unanswered calls by number. None may outlive the connection.
   std::map<std::uint64_t, Result> kept_;
   std::uint64_t calls_ = 0;
-  bool known_ = false; ///< it has told its name
-  bool heard_ = false; ///< how strongly is known
+  bool known_ = false; ///< its name is known
+  bool heard_ = false; ///< its signal strength is known
   bool connected_ = false;
   bool resolved_ = false;
-  bool admitted_ = false; ///< the right word was written
+  bool greeted_ = false; ///< the right word was written
   std::uint64_t session_ = 0;
 };
 
@@ -277,7 +279,7 @@ void Computer::publish() {
   adapter.finishRegistration();
 }
 
-/// Everything that has come from the bus, then what comes next.
+/// Processes everything received on the bus, then waits for more.
 void Computer::pump() {
   try {
     while (connection_->processPendingRequest())
@@ -288,11 +290,11 @@ void Computer::pump() {
     };
     socket_.cancel();
     socket_.async_wait(asio::posix::descriptor_base::wait_read, again);
-    constexpr short write_event = 4; // POLLOUT: something waits to be sent
+    constexpr short write_event = 4; // POLLOUT: output is pending
     if ((connection_->getEventLoopPollData().events & write_event) != 0)
       socket_.async_wait(asio::posix::descriptor_base::wait_write, again);
   } catch (const sdbus::Error&) {
-    // The bus is gone, and with it everybody who could ask.
+    // The bus is gone, and with it all clients.
   }
 }
 
@@ -334,7 +336,7 @@ void Computer::stop_discovery(const std::string& client) {
       robot->fade();
 }
 
-/// A client is gone, and what it had asked for.
+/// Drops a client and what it had requested.
 void Computer::forget(const std::string& client) {
   if (std::ranges::find(listeners_, client) != listeners_.end())
     stop_discovery(client);
@@ -377,7 +379,7 @@ void Robot::fade() {
   tell(*device_, device_interface, {}, {"RSSI"});
 }
 
-/// Anew, because which properties it has changes.
+/// Publishes the device again, because its set of properties changes.
 void Robot::publish_device() {
   device_.reset();
   device_ = sdbus::createObject(computer_.connection(), path_);
@@ -385,7 +387,7 @@ void Robot::publish_device() {
   device.registerMethod("Connect").onInterface(device_interface).implementedAs([this](Result&& r) {
     connect(std::move(r));
   });
-  // Answered before it is told: who hears that the link is gone may not wait for the answer.
+  // Answer first: a client that sees the link end may not wait for the answer.
   device.registerMethod("Disconnect")
       .onInterface(device_interface)
       .implementedAs([this](Result&& r) {
@@ -417,7 +419,7 @@ bool Robot::publishes(const spec::BleCharacteristicInfo& row) const {
   return spec::protocol_of(row.characteristic) == protocol_ && greets;
 }
 
-/// They stay when the link ends, as BlueZ keeps them.
+/// The services stay published after a disconnect, as in BlueZ.
 void Robot::publish_services() {
   if (!services_.empty())
     return;
@@ -442,7 +444,7 @@ void Robot::publish_services() {
 void Robot::publish_characteristic(const spec::BleCharacteristicInfo& row, std::size_t number) {
   const auto service =
       fmt::format("{}/service{:04x}", path_, static_cast<std::size_t>(row.service));
-  // Client libraries read the handle from the path.
+  // Client libraries parse the handle from the path.
   constexpr std::size_t first_handle = 16;
   auto object = sdbus::createObject(computer_.connection(),
                                     fmt::format("{}/char{:04x}", service, first_handle + number));
@@ -499,7 +501,7 @@ bool Robot::strikes(BleStep step) {
   if (plan.vanish == step)
     computer_.vanish();
   else if (once || plan.drop == step)
-    disconnect(); // the ball hears of it from its end
+    disconnect(); // the ball notices at its own end
   else
     return false;
   return true;
@@ -509,7 +511,7 @@ bool Robot::strikes(BleStep step, Result& result) {
   const auto& plan = computer_.plan();
   if (plan.vanish != step && plan.drop != step && drop_once_ != step)
     return false;
-  // Whoever is called now is not taken away under its own feet.
+  // Deferred: the object called must not be destroyed during its own call.
   keep(std::move(result), {}, [this, step](Result& kept) {
     static_cast<void>(strikes(step));
     kept.returnError(bluez_error("Failed", "le-connection-abort-by-local"));
@@ -545,12 +547,17 @@ void Robot::connect(Result&& result) {
   stream_.assign(ends[0]);
   peer_.assign(ends[1]);
   connected_ = true;
-  admitted_ = spec::is_open(model_);
+  greeted_ = false;
   ++session_;
-  tell(*device_, device_interface, {{"Connected", true}}); // before it is answered, as BlueZ does
+  tell(*device_, device_interface, {{"Connected", true}}); // before the answer, as BlueZ does
   result.returnResults();
   door_->enter(*this);
   await_packets();
+  if (const auto patience = spec::patience(model_))
+    computer_.after(*patience, [this, session = session_] {
+      if (session == session_ && connected_ && !greeted_)
+        disconnect();
+    });
   computer_.after(computer_.plan().late, [this, session = session_] {
     if (session == session_ && connected_ && !strikes(BleStep::Services) &&
         !balks(BleStep::Services))
@@ -576,7 +583,7 @@ void Robot::disconnect() {
   tell(*device_, device_interface, {{"ServicesResolved", false}, {"Connected", false}});
 }
 
-/// bluetoothd keeps the link of a client that has ended, but tells it nothing any more.
+/// bluetoothd keeps the link of a client that has ended, but stops its notifications.
 void Robot::forget(const std::string& client) {
   for (auto& [which, characteristic] : characteristics_)
     if (characteristic.notified == client)
@@ -598,7 +605,7 @@ void Robot::on_write(BleCharacteristic characteristic, const Bytes& value, Resul
     return result.returnError(bluez_error("Failed", "Operation failed with ATT error: 0x0e"));
   if (characteristic == BleCharacteristic::Answers)
     return result.returnError(bluez_error("NotPermitted", "Write not permitted"));
-  if (value.size() > spec::ble_piece_bytes) // a robot does not know long writes
+  if (value.size() > spec::ble_piece_bytes) // robots do not support long writes
     return result.returnError(bluez_error("Failed", "Operation failed with ATT error: 0x06"));
   if (characteristic == spec::takes_packets(protocol_) && random_.chance(computer_.plan().refuse)) {
     if (random_.chance(half))
@@ -618,14 +625,14 @@ void Robot::on_write(BleCharacteristic characteristic, const Bytes& value, Resul
        });
 }
 
-/// What the robot does with what was written, after the receipt has left.
+/// Handles a write, after its acknowledgement has left.
 void Robot::take(BleCharacteristic characteristic, const Bytes& value) {
   for (const auto& row : spec::ble_greeting)
     if (row.characteristic == characteristic &&
         protocol::step_of(characteristic) == BleStep::AntiDos)
-      admitted_ = as_text(value) == row.bytes;
-  // A wrong word is answered by silence.
-  if (characteristic == spec::takes_packets(protocol_) && admitted_ && !computer_.plan().mute)
+      greeted_ = as_text(value) == row.bytes;
+  const bool hears = greeted_ || !spec::is_deaf(model_); // a deaf one answers nothing
+  if (characteristic == spec::takes_packets(protocol_) && hears && !computer_.plan().mute)
     static_cast<void>(::write(peer_.native_handle(), value.data(), value.size()));
 }
 
@@ -641,7 +648,7 @@ void Robot::start_notify(BleCharacteristic characteristic, Result&& result) {
   if (characteristic != spec::sends_packets(protocol_))
     return result.returnError(bluez_error("NotSupported", "Operation is not supported"));
   result.returnResults();
-  if (connected_) // else it is answered, and nothing comes
+  if (connected_) // otherwise the call succeeds, but no notifications follow
     set_notified(characteristic, client);
 }
 

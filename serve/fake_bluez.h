@@ -12,21 +12,20 @@
 
 namespace orb::serve {
 
-/// The Bluetooth of a Linux computer, as D-Bus shows it, with robots near it: `org.bluez` on a bus
-/// of its own. Source: the documents in doc/ of BlueZ 5.66.
+/// The Bluetooth of a Linux computer with robots nearby, as seen over D-Bus: `org.bluez` on a
+/// private bus. Source: the documents in doc/ of BlueZ 5.66.
 class FakeBluez {
 public:
   virtual ~FakeBluez() = default;
 
   virtual tl::expected<void, IoError> open() = 0;
 
-  /// A robot near it that advertises `name`; the link must not outlive this.
+  /// Creates a robot nearby that advertises `name`. The link must not outlive this object.
   virtual std::unique_ptr<Link> make_robot(std::string name, std::string address,
                                            spec::BleModel model) = 0;
 };
 
-/// What is wrong with it says `plan`, which must outlive it. An error where this program has no
-/// Bluetooth LE.
+/// `plan` contains the faults and must outlive it. Fails if this build has no Bluetooth LE.
 tl::expected<std::unique_ptr<FakeBluez>, IoError>
 make_fake_bluez(asio::io_context& io, const protocol::BleFaultPlan& plan);
 

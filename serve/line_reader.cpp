@@ -12,10 +12,10 @@ namespace orb::serve {
 
 struct LineReader::Shared {
   std::mutex mutex;
-  asio::io_context* io = nullptr; ///< null: nobody listens
+  asio::io_context* io = nullptr; ///< null: the reader is gone
   std::function<void(const std::string&)> on_line;
 
-  /// Whether anybody listens.
+  /// Returns false if the reader is gone.
   static bool hand_on(const std::shared_ptr<Shared>& shared, std::string line) {
     const std::lock_guard lock(shared->mutex);
     if (shared->io == nullptr)

@@ -10,18 +10,19 @@
 
 namespace orb::serve {
 
-/// Hands the lines of a source to an event loop, one at a time, without their ends. The source is
-/// read in a thread of its own, as reading may block, and others may share it: a terminal, say.
+/// Passes the lines of a source to an event loop, one at a time, without line ends. Reads in a
+/// separate thread, because reading may block and others may share the source, for example a
+/// terminal.
 class LineReader {
 public:
-  /// As read(2).
+  /// Has the contract of read(2).
   using Read = std::function<ssize_t(std::span<char>)>;
-  /// A longer line is handed on in pieces.
+  /// Longer lines are passed on in pieces.
   static constexpr std::size_t longest = 4096;
 
-  /// `on_line` is called by `io`. `read` must be good for as long as the process lives.
+  /// `io` calls `on_line`. `read` must stay valid for the life of the process.
   LineReader(asio::io_context& io, Read read, std::function<void(const std::string&)> on_line);
-  /// Nothing is handed on any more; a read that waits is left alone.
+  /// Stops passing lines on; a blocked read is abandoned.
   ~LineReader();
   LineReader(const LineReader&) = delete;
   LineReader& operator=(const LineReader&) = delete;

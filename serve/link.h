@@ -12,41 +12,41 @@ namespace orb::serve {
 
 class Link;
 
-/// What a ball does about the clients that its links find.
+/// The ball's side of its links.
 class Door {
 public:
-  /// Whether a client may come in: one at a time.
+  /// Returns true if a client may enter: one at a time.
   virtual bool admits() = 0;
-  /// The client of `link` is there, until hang_up().
+  /// Tells that a client has connected through `link`. It stays until hang_up().
   virtual void enter(Link& link) = 0;
-  /// `link` has another address from now on.
+  /// Tells that `link` has a new address.
   virtual void moved(const Link& link) = 0;
 
 protected:
   ~Door() = default;
 };
 
-/// A way to a ball: clients come and go on it, one at a time. Nothing here blocks.
+/// A way to a ball, used by one client at a time. No function blocks.
 class Link {
 public:
   enum class Ready : std::uint8_t { Read, Write };
 
   virtual ~Link() = default;
-  /// Where clients find it, such as `tcp 127.0.0.1:4242`.
+  /// The address for clients, for example `tcp 127.0.0.1:4242`.
   virtual std::string address() const = 0;
-  /// Begins to look for clients.
+  /// Starts to accept clients.
   virtual void start(Door& door) = 0;
-  /// Lets the client go.
+  /// Disconnects the client.
   virtual void hang_up() = 0;
-  /// Whether the client notices hang_up().
+  /// Returns true if the client notices hang_up().
   virtual bool can_hang_up() const = 0;
 
-  /// Calls `handler` once, when the client can be read from or written to.
+  /// Calls `handler` once, when the client is readable or writable.
   virtual void wait(Ready ready, std::function<void()> handler) = 0;
-  /// As read(2) and write(2).
+  /// Have the contracts of read(2) and write(2).
   virtual ssize_t read(std::span<std::uint8_t> buffer) = 0;
   virtual ssize_t write(ByteView bytes) = 0;
-  /// Whether nobody is at the other end (any more); bytes may still wait.
+  /// Returns true if the other end is closed; bytes may still be unread.
   virtual bool client_left() = 0;
 };
 

@@ -11,10 +11,10 @@ namespace orb::serve {
 
 struct PtyError {
   IoError error;
-  bool has_no_pty = false; ///< the system gives none; else the symlink could not be made
+  bool has_no_pty = false; ///< the system provides none; otherwise the symlink could not be made
 };
 
-/// A pty, and a symlink `path` to it where that is not empty.
+/// Opens a pty and makes a symlink `path` to it, unless that is empty.
 tl::expected<std::unique_ptr<Link>, PtyError> open_pty_link(asio::io_context& io,
                                                             const std::string& path);
 

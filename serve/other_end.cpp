@@ -5,7 +5,7 @@
 namespace orb::serve {
 
 bool other_end_left(int descriptor) {
-  pollfd query{descriptor, POLLRDHUP, 0}; // POLLHUP comes unasked
+  pollfd query{descriptor, POLLRDHUP, 0}; // POLLHUP is always reported
   return ::poll(&query, 1, 0) > 0;
 }
 

@@ -2,7 +2,7 @@
 
 namespace orb::serve {
 
-/// Whether nobody is at the other end of a descriptor (any more); bytes may still wait.
+/// Returns true if the other end of a descriptor is closed; bytes may still be unread.
 bool other_end_left(int descriptor);
 
 } // namespace orb::serve

@@ -7,13 +7,14 @@
 namespace orb::serve {
 namespace {
 
-/// Several clients take one packet from each read: a message keeps this distance from a message …
+/// Several clients parse only one packet per read, so a message keeps this distance from the
+/// message before …
 constexpr Duration message_gap = std::chrono::milliseconds{2};
-/// … and more from an answer, which a client may take its time to look at …
+/// … and a larger one from an answer, which a client may take time to process …
 constexpr Duration answer_gap = std::chrono::milliseconds{8};
-/// … but does not wait forever.
+/// … but waits no longer than this.
 constexpr Duration message_patience = std::chrono::milliseconds{20};
-/// Answers leave one by one, unless a pipelining client is owed more than this at once.
+/// Answers are written separately, unless a pipelining client is owed more than this at once.
 constexpr std::size_t answers_apart = 16;
 
 } // namespace

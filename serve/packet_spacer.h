@@ -8,17 +8,17 @@
 
 namespace orb::serve {
 
-/// Decides when packets leave for a client that takes one packet from each read: answers at once,
-/// messages at a distance from the packet before them (docs/protocol.md). Its time is the client's.
+/// Spaces packets for clients that parse one packet per read: answers leave at once, messages at a
+/// distance from the packet before (docs/reference/protocol.md). Times are the client's.
 class PacketSpacer {
 public:
   void add_answer(Bytes packet) { answers_.push_back(std::move(packet)); }
   void add_message(Bytes packet, Instant now) { messages_.push_back({std::move(packet), now}); }
-  /// Lets everything leave without a distance, answers first.
+  /// Drops the distances: everything leaves, answers first.
   void hurry();
-  /// What leaves at `now`: a write each.
+  /// Returns what leaves at `now`, one entry per write.
   std::vector<Bytes> take(Instant now);
-  /// When take() gives the next message; `never` without one.
+  /// When the next message leaves; `never` if none waits.
   Instant next_due() const;
   bool has_messages() const { return !messages_.empty(); }
   void clear();
@@ -34,7 +34,7 @@ private:
   std::vector<Bytes> ready_;
   std::vector<Bytes> answers_;
   std::deque<Message> messages_;
-  Instant message_at_{}; ///< before which no message leaves
+  Instant message_at_{}; ///< no message leaves earlier
 };
 
 } // namespace orb::serve

@@ -12,20 +12,20 @@
 #include <random>
 #include <utility>
 
-// The libraries of Debian that serve HTTP bring TLS into every start of a program; what a page on
-// the same computer needs of HTTP is little.
+// A minimal HTTP server: Debian's HTTP libraries load TLS at every program start, and a page on the
+// same computer needs very little of HTTP.
 
 namespace orb::serve {
 namespace {
 
 using asio::ip::tcp;
 
-constexpr std::size_t most_head = 8192;  // bytes: what browsers send is a tenth of that
+constexpr std::size_t most_head = 8192;  // bytes: ten times what browsers send
 constexpr std::size_t most_body = 1024;  // bytes: a post holds a few numbers
-constexpr std::size_t most_waiting = 64; ///< events that a page has not taken yet
+constexpr std::size_t most_waiting = 64; ///< events that a page has not yet received
 constexpr std::size_t most_guests = 16;
 
-/// 128 bits as hex digits.
+/// Returns 128 random bits as hex digits.
 std::string make_secret() {
   std::random_device draw;
   std::string text;
@@ -53,7 +53,7 @@ struct Request {
   std::string_view path;
 };
 
-/// Nothing where it is no request that could be answered.
+/// Returns nullopt if the line is not a request.
 std::optional<Request> read_request(std::string_view line) {
   const auto blank = line.find(' ');
   const auto end = line.rfind(' ');
@@ -62,21 +62,21 @@ std::optional<Request> read_request(std::string_view line) {
   return Request{line.substr(0, blank), line.substr(blank + 1, end - blank - 1)};
 }
 
-/// A connection: a request that arrives, or a page that listens.
+/// A connection: an incoming request, or a page that receives events.
 struct Guest {
   explicit Guest(tcp::socket from) : socket(std::move(from)) {}
   tcp::socket socket;
   std::string in;
   std::deque<std::string> out;
   bool listens = false;
-  bool leaves = false; ///< when all is said
+  bool leaves = false; ///< close after all output is sent
   bool gone = false;
 };
 
 } // namespace
 
-struct PageServer::State {
-  State(std::string text, OnPost hears) : page(std::move(text)), on_post(std::move(hears)) {}
+struct PageServer::Impl {
+  Impl(std::string text, OnPost hears) : page(std::move(text)), on_post(std::move(hears)) {}
 
   tl::expected<void, IoError> open();
   void poll();
@@ -98,7 +98,7 @@ struct PageServer::State {
   std::list<Guest> guests;
 };
 
-tl::expected<void, IoError> PageServer::State::open() {
+tl::expected<void, IoError> PageServer::Impl::open() {
   asio::error_code error;
   const tcp::endpoint place(asio::ip::address_v4::loopback(), 0);
   acceptor.open(place.protocol(), error);
@@ -114,7 +114,7 @@ tl::expected<void, IoError> PageServer::State::open() {
   return {};
 }
 
-void PageServer::State::accept() {
+void PageServer::Impl::accept() {
   acceptor.async_accept([this](asio::error_code error, tcp::socket socket) {
     if (error == asio::error::operation_aborted)
       return;
@@ -124,8 +124,8 @@ void PageServer::State::accept() {
   });
 }
 
-/// Whoever has said too little for too long makes way: the page must get through.
-bool PageServer::State::make_room() {
+/// Drops an idle connection if all slots are taken, so that the page can always get through.
+bool PageServer::Impl::make_room() {
   if (guests.size() < most_guests)
     return true;
   const auto idle = std::find_if(guests.begin(), guests.end(),
@@ -136,9 +136,9 @@ bool PageServer::State::make_room() {
   return true;
 }
 
-void PageServer::State::read(Guest& guest) {
+void PageServer::Impl::read(Guest& guest) {
   const auto before = guest.in.size();
-  constexpr std::size_t piece = 2048; // bytes of one read
+  constexpr std::size_t piece = 2048; // bytes per read
   guest.in.resize(before + piece);
   guest.socket.async_read_some(asio::buffer(guest.in.data() + before, piece),
                                [this, &guest, before](asio::error_code error, std::size_t n) {
@@ -153,10 +153,10 @@ void PageServer::State::read(Guest& guest) {
                                });
 }
 
-/// Answers once the whole request is there; whoever does not know the secret path, before that.
-void PageServer::State::serve(Guest& guest) {
+/// Answers a complete request. Rejects a wrong secret path as soon as it is seen.
+void PageServer::Impl::serve(Guest& guest) {
   if (guest.listens) {
-    guest.in.clear(); // who listens says no more
+    guest.in.clear(); // ignore input of a page that receives events
     return;
   }
   constexpr std::string_view blank_line = "\r\n\r\n";
@@ -175,7 +175,7 @@ void PageServer::State::serve(Guest& guest) {
   if (!request->path.starts_with(base))
     return refuse(guest, "404 Not Found", nothing_here);
   const auto length = body_length(head.substr(line.size()));
-  if (length.said == BodyLength::Said::Nonsense || length.bytes > most_body)
+  if (length.said == BodyLength::Found::Nonsense || length.bytes > most_body)
     return refuse(guest, "400 Bad Request", "this request is not supported\n");
   const auto body = text.substr(end + blank_line.size());
   request->path.remove_prefix(base.size());
@@ -183,8 +183,8 @@ void PageServer::State::serve(Guest& guest) {
     answer_to(guest, *request, body.substr(0, length.bytes));
 }
 
-/// `request` has the part of its path after the secret one.
-void PageServer::State::answer_to(Guest& guest, const Request& request, std::string_view body) {
+/// `request.path` lacks the secret part.
+void PageServer::Impl::answer_to(Guest& guest, const Request& request, std::string_view body) {
   if (request.method == "GET" && request.path == "events") {
     guest.listens = true;
     return say(guest, std::string(event_head));
@@ -200,12 +200,12 @@ void PageServer::State::answer_to(Guest& guest, const Request& request, std::str
   say(guest, answer("200 OK", "text/html; charset=utf-8", page));
 }
 
-void PageServer::State::refuse(Guest& guest, std::string_view status, std::string_view why) {
+void PageServer::Impl::refuse(Guest& guest, std::string_view status, std::string_view why) {
   guest.leaves = true;
   say(guest, answer(status, "text/plain", why));
 }
 
-void PageServer::State::say(Guest& guest, std::string text) {
+void PageServer::Impl::say(Guest& guest, std::string text) {
   if (guest.out.size() >= most_waiting) {
     guest.gone = true;
     return;
@@ -215,7 +215,7 @@ void PageServer::State::say(Guest& guest, std::string text) {
     write(guest);
 }
 
-void PageServer::State::write(Guest& guest) {
+void PageServer::Impl::write(Guest& guest) {
   asio::async_write(guest.socket, asio::buffer(guest.out.front()),
                     [this, &guest](asio::error_code error, std::size_t) {
                       guest.out.pop_front();
@@ -231,32 +231,32 @@ void PageServer::State::write(Guest& guest) {
                     });
 }
 
-PageServer::PageServer(std::unique_ptr<State> state) : state_(std::move(state)) {}
+PageServer::PageServer(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 PageServer::~PageServer() = default;
 
 tl::expected<std::unique_ptr<PageServer>, IoError> PageServer::start(std::string page,
                                                                      OnPost on_post) {
-  auto state = std::make_unique<State>(std::move(page), std::move(on_post));
-  if (auto opened = state->open(); !opened)
+  auto impl = std::make_unique<Impl>(std::move(page), std::move(on_post));
+  if (auto opened = impl->open(); !opened)
     return tl::unexpected(opened.error());
-  return std::unique_ptr<PageServer>(new PageServer(std::move(state)));
+  return std::unique_ptr<PageServer>(new PageServer(std::move(impl)));
 }
 
 const std::string& PageServer::url() const {
-  return state_->url;
+  return impl_->url;
 }
 
 tl::expected<void, Failure> PageServer::poll() {
   return contain([this]() -> tl::expected<void, Failure> {
-    state_->poll();
+    impl_->poll();
     return {};
   });
 }
 
-void PageServer::State::poll() {
+void PageServer::Impl::poll() {
   context.restart();
   context.poll();
-  // Who is gone is forgotten once nothing of his is under way.
+  // Remove closed connections only when none of their operations is pending.
   for (auto& guest : guests)
     if (guest.gone && guest.socket.is_open()) {
       asio::error_code ignored;
@@ -267,14 +267,14 @@ void PageServer::State::poll() {
 }
 
 void PageServer::send(std::string_view event) {
-  for (auto& guest : state_->guests)
+  for (auto& guest : impl_->guests)
     if (guest.listens && !guest.gone)
-      state_->say(guest, fmt::format("data: {}\n\n", event));
+      impl_->say(guest, fmt::format("data: {}\n\n", event));
 }
 
 std::size_t PageServer::listeners() const {
   return static_cast<std::size_t>(
-      std::count_if(state_->guests.begin(), state_->guests.end(),
+      std::count_if(impl_->guests.begin(), impl_->guests.end(),
                     [](const Guest& guest) { return guest.listens && !guest.gone; }));
 }
 

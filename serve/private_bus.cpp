@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 constexpr auto program = "dbus-daemon";
 constexpr int start_time = 10'000; // ms; it takes about ten, more on a busy machine
 
-/// Everybody may do everything, but for what is denied.
+/// Allows everything except what is denied.
 constexpr std::string_view configuration = R"(<!DOCTYPE busconfig PUBLIC
  "-//freedesktop//DTD D-Bus Bus Configuration 1.0//EN"
  "http://www.freedesktop.org/standards/dbus/1.0/busconfig.dtd">
@@ -42,15 +42,15 @@ IoError failure(std::string_view what, int error) {
   return {fmt::format("cannot {}: {}", what, std::strerror(error))};
 }
 
-/// Becomes the daemon, which says on `out` where it listens. Does not come back.
+/// Becomes the daemon, which prints its address to `out`. Does not return.
 [[noreturn]] void become_daemon(const std::string& file, int out) {
   const auto option = "--config-file=" + file;
   const auto print = "--print-address=" + std::to_string(out);
   const std::array<const char*, 6> words{program,       option.c_str(), "--nofork",
                                          "--nopidfile", print.c_str(),  nullptr};
-  ::setpgid(0, 0);                    // Ctrl-C is for the one who serves
-  ::prctl(PR_SET_PDEATHSIG, SIGTERM); // and may be killed
-  // It warns of limits that do not matter here.
+  ::setpgid(0, 0);                    // Ctrl-C is meant for the server
+  ::prctl(PR_SET_PDEATHSIG, SIGTERM); // stop it even if the server is killed
+  // Discard warnings about limits that do not matter here.
   if (const int nowhere = ::open("/dev/null", O_WRONLY); nowhere >= 0)
     ::dup2(nowhere, STDERR_FILENO);
   ::execvp(program, const_cast<char* const*>(words.data()));
@@ -92,7 +92,7 @@ tl::expected<void, IoError> PrivateBus::start(std::string_view denied) {
     become_daemon(file, ends[1]);
   ::close(ends[1]);
   pollfd query{ends[0], POLLIN, 0};
-  std::array<char, 1> first{}; // it listens when it says where
+  std::array<char, 1> first{}; // it prints its address once it is listening
   const auto listens = daemon_ > 0 && ::poll(&query, 1, start_time) > 0 &&
                        ::read(ends[0], first.data(), first.size()) == 1;
   ::close(ends[0]);

@@ -9,7 +9,7 @@
 
 namespace orb::serve {
 
-/// A D-Bus of our own: a dbus-daemon in a folder that is removed at the end.
+/// A private D-Bus: a dbus-daemon in a folder that is removed at the end.
 class PrivateBus {
 public:
   PrivateBus() = default;
@@ -17,10 +17,10 @@ public:
   PrivateBus& operator=(const PrivateBus&) = delete;
   ~PrivateBus();
 
-  /// Starts it. Whom nobody may call is named in `denied`; empty for nobody.
+  /// Starts it. Calls to the name `denied` are refused; empty: none.
   tl::expected<void, IoError> start(std::string_view denied);
 
-  /// As programs take it from the environment: `unix:path=…`.
+  /// Returns `unix:path=…`, the form used in the environment.
   std::string address() const;
 
 private:

@@ -20,14 +20,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// How often a pty without a client is looked at for one.
+/// Polling interval of a pty without a client.
 constexpr std::chrono::milliseconds interval{20};
 
 int open_slave(const std::string& slave) {
   return ::open(slave.c_str(), O_RDWR | O_NOCTTY | O_CLOEXEC | O_NONBLOCK);
 }
 
-/// Without echo, translation and signals. On Linux the settings of a master are those of its slave.
+/// No echo, translation or signals. On Linux the settings of a master are those of its slave.
 termios raw_settings(int master) {
   termios settings{};
   ::tcgetattr(master, &settings);
@@ -42,8 +42,8 @@ void keep_raw(int master) {
     ::tcsetattr(master, TCSANOW, &raw);
 }
 
-/// Drops what was said to a client that is gone: on its way, then received but not read. What the
-/// next client may have written already stays.
+/// Drops what was sent to a client that left: in transit, or received but unread. Keeps what the
+/// next client may already have written.
 void drop_unread(int master) {
   ::tcflush(master, TCOFLUSH);
   const auto raw = raw_settings(master);
@@ -55,8 +55,8 @@ std::string target_of(const std::string& link) {
   return fs::read_symlink(link, error).string();
 }
 
-/// Where a link to `slave` leads, spelt as nobody else would: so a ball knows the link of one that
-/// was killed from that of another program.
+/// The symlink target for `slave`, in an unusual spelling that marks links of orb: a ball can
+/// thereby recognise the link left by a killed ball.
 std::string our_target(const std::string& slave) {
   const auto number = slave.rfind('/');
   return slave.substr(0, number) + "/." + slave.substr(number);
@@ -66,8 +66,8 @@ bool is_before(const timespec& a, const timespec& b) {
   return std::tie(a.tv_sec, a.tv_nsec) < std::tie(b.tv_sec, b.tv_nsec);
 }
 
-/// Left over from a ball that was killed: its pty is gone, or is a later one that was given the
-/// same number.
+/// Returns true if a killed ball left the link: its pty is gone, or the number was given to a later
+/// one.
 bool is_left_over(const std::string& link) {
   const auto target = target_of(link);
   if (!target.starts_with(our_target("/dev/pts/")))
@@ -79,7 +79,7 @@ bool is_left_over(const std::string& link) {
   return ::lstat(link.c_str(), &of_link) == 0 && is_before(of_link.st_mtim, of_pty.st_ctim);
 }
 
-IoError failure(std::string_view what) {
+IoError pty_failure(std::string_view what) {
   return {fmt::format("cannot {}: {}", what, std::strerror(errno))};
 }
 
@@ -93,21 +93,21 @@ PtyLink::~PtyLink() {
 tl::expected<void, IoError> PtyLink::open() {
   const int master = ::posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC | O_NONBLOCK);
   if (master < 0)
-    return tl::unexpected(failure("open a pty"));
+    return tl::unexpected(pty_failure("open a pty"));
   asio::posix::stream_descriptor stream(stream_.get_executor(), master);
-  std::array<char, 128> name{}; // they are short: /dev/pts/N
+  std::array<char, 128> name{}; // long enough for /dev/pts/N
   if (::grantpt(master) != 0 || ::unlockpt(master) != 0 ||
       ::ptsname_r(master, name.data(), name.size()) != 0)
-    return tl::unexpected(failure("open a pty"));
+    return tl::unexpected(pty_failure("open a pty"));
   stream_ = std::move(stream);
   slave_ = name.data();
   keep_raw(master);
-  ::close(open_slave(slave_)); // brings the master into its state without a client
+  ::close(open_slave(slave_)); // puts the master into its state without a client
   return {};
 }
 
 tl::expected<void, IoError> PtyLink::make_link(const std::string& path) {
-  // Its number may be the one that this pty was given.
+  // The target may have the number of this pty.
   if (is_left_over(path) || target_of(path) == our_target(slave_))
     ::unlink(path.c_str());
   if (const auto target = target_of(path); !target.empty())
@@ -118,7 +118,7 @@ tl::expected<void, IoError> PtyLink::make_link(const std::string& path) {
     if (errno == EEXIST)
       return tl::unexpected(
           IoError{fmt::format("`{}` exists and is not a symbolic link; give another name", path)});
-    return tl::unexpected(failure("create link " + path));
+    return tl::unexpected(pty_failure("create link " + path));
   }
   path_ = path;
   return {};
@@ -126,16 +126,16 @@ tl::expected<void, IoError> PtyLink::make_link(const std::string& path) {
 
 void PtyLink::start(Door& door) {
   door_ = &door;
-  keep_raw(stream_.native_handle()); // a visit that said nothing may have changed it
+  keep_raw(stream_.native_handle()); // a silent client may have changed the settings
   if (has_visit()) {
     if (door.admits())
-      return door.enter(*this); // hang_up() comes back here
-    // Who writes while another client is there is not heard, now or later.
+      return door.enter(*this); // hang_up() continues here
+    // Bytes written while another client is connected are dropped.
     std::array<std::uint8_t, 4096> unheard;
     while (read(unheard) > 0)
       ;
   }
-  // A client that said nothing may have locked the door behind it.
+  // A silent client may have set TIOCEXCL.
   if (!has_visit() && is_exclusive())
     replace();
   timer_.expires_after(interval);
@@ -145,13 +145,13 @@ void PtyLink::start(Door& door) {
   });
 }
 
-/// Whether somebody is there, or has been and left bytes.
+/// Returns true if a client is connected, or has left bytes.
 bool PtyLink::has_visit() {
   pollfd query{stream_.native_handle(), POLLIN, 0};
   return ::poll(&query, 1, 0) >= 0 && ((query.revents & POLLIN) || !(query.revents & POLLHUP));
 }
 
-/// The settings are looked at before each write: an echo of it would come back as a command.
+/// Restores the settings before each write: with echo, output would return as input.
 ssize_t PtyLink::write(ByteView bytes) {
   keep_raw(stream_.native_handle());
   return DescriptorLink::write(bytes);
@@ -165,8 +165,8 @@ void PtyLink::hang_up() {
   start(*door_);
 }
 
-/// Whether nobody can open the slave any more: TIOCEXCL stays on it as long as the master is open,
-/// and only root can take it away.
+/// Returns true if nobody can open the slave any more: TIOCEXCL lasts as long as the master is
+/// open, and only root can clear it.
 bool PtyLink::is_exclusive() {
   if (!client_left())
     return false;
@@ -178,7 +178,7 @@ bool PtyLink::is_exclusive() {
   return false;
 }
 
-/// Moves to another pty, and the link with it.
+/// Moves to another pty and updates the symlink.
 void PtyLink::replace() {
   const auto before = slave_;
   if (!open())

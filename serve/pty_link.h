@@ -8,7 +8,7 @@
 
 namespace orb::serve {
 
-/// The master of a raw pty, and a symlink to its slave. It has to be asked whether a client has
+/// The master of a raw pty, and a symlink to its slave. Must poll to notice that a client has
 /// opened the slave.
 class PtyLink final : public DescriptorLink {
 public:
@@ -18,8 +18,8 @@ public:
   ~PtyLink() override;
 
   tl::expected<void, IoError> open();
-  /// Makes `path` a symlink to the slave, until the end. What is there already stays, but for a
-  /// link to a pty that is gone.
+  /// Makes `path` a symlink to the slave, for the life of this object. Never replaces anything but
+  /// a link to a vanished pty.
   tl::expected<void, IoError> make_link(const std::string& path);
 
   std::string address() const override { return "pty " + (path_.empty() ? slave_ : path_); }

@@ -4,7 +4,7 @@
 #include "protocol/recording.h"
 #include "serve/open_pty.h"
 #include "serve/tcp_link.h"
-#include "vm/bluetooth.h"
+#include "vm/common/bluetooth.h"
 #include "vm/state.h"
 
 #include <algorithm>
@@ -19,13 +19,13 @@
 namespace orb::serve {
 namespace {
 
-/// A client that does not read is not read from while this much waits for it.
+/// Stop reading from a client while this much output waits for it.
 constexpr std::size_t backlog_most = 256 * 1024;
 constexpr std::size_t read_size = 64 * 1024; // bytes at once
-/// How much a client that has left is still heard when the next one knocks.
+/// Most reads from a departed client when the next one arrives.
 constexpr int farewell_reads = 64;
 
-/// A seed of its own for the ball of that index: what happens to one ball does not happen to all.
+/// Returns a separate seed for each ball, so that their events differ.
 std::uint64_t seed_of(std::uint64_t seed, int index) {
   return seed + static_cast<std::uint64_t>(index);
 }
@@ -43,7 +43,8 @@ bool only_later(ssize_t result) {
 ServedBall::ServedBall(asio::io_context& io, const ServeOptions& options, int index,
                        FakeBluez* bluez)
     : io_(io), options_(options), index_(index), bluez_(bluez),
-      spectator_(options.watch ? options.watch(index) : nullptr), timer_(io) {
+      spectator_(options.watch ? options.watch(index) : nullptr),
+      witness_(options.hear ? options.hear(index) : nullptr), timer_(io) {
   if (options.fault) {
     auto plan = *options.fault;
     plan.seed = seed_of(plan.seed, index);
@@ -61,19 +62,16 @@ vm::BallOptions ServedBall::ball_options() {
   return ball;
 }
 
-/// Begins a life at `born_`.
+/// Creates the ball, whose time begins at `born_`.
 void ServedBall::make_ball() {
   const auto options = ball_options();
-  robot_.reset();
-  ball_.emplace(options);
-  if (spec::info(options_.robot).packets == spec::Packets::V2)
-    robot_.emplace(*ball_, options_.robot, vm::bluetooth_address(options.seed));
-  ball_->schedule(options_.stimulus);
+  device_.emplace(options);
+  device_->ball().schedule(options_.stimulus);
 }
 
 // Opening.
 
-/// The name for this ball of what is called `name` for one ball alone.
+/// Adds the ball's number to a name, if several balls are served.
 std::string ServedBall::numbered(const std::string& name) const {
   return options_.count == 1 || name.empty() ? name : fmt::format("{}-{}", name, index_ + 1);
 }
@@ -92,12 +90,12 @@ tl::expected<void, IoError> ServedBall::load() {
   const auto text = disk::read(path);
   if (!text)
     return tl::unexpected(text.error());
-  if (const auto loaded = vm::load_state(*text, *ball_); !loaded)
+  if (const auto loaded = vm::load_state(*text, ball()); !loaded)
     return tl::unexpected(
         IoError{fmt::format("{} cannot be used as a ball's state: {}; remove it to start with "
                             "a new ball, or give another file",
                             path, loaded.error())});
-  saved_revision_ = ball_->dispatcher().revision();
+  saved_revision_ = ball().dispatcher().revision();
   return {};
 }
 
@@ -126,16 +124,13 @@ tl::expected<void, IoError> ServedBall::open_tcp(const ServeOptions::Tcp& place)
   return {};
 }
 
-/// Under the name that such a robot has: its kind, and the end of its address.
+/// Advertises the name that such a robot has: its kind, and the end of its address.
 void ServedBall::open_ble(FakeBluez& bluez) {
   const auto options = ball_options();
   const auto model = options.firmware == spec::Firmware::Bb8 ? spec::BleModel::Bb8
                                                              : spec::info(options_.robot).ble;
   const auto address = vm::bluetooth_address(options.seed);
-  constexpr std::size_t told = 4; // digits of the address
-  links_.push_back(bluez.make_robot(std::string(spec::info(model).prefix) +
-                                        address.substr(address.size() - told),
-                                    address, model));
+  links_.push_back(bluez.make_robot(vm::advertised_name(model, address), address, model));
 }
 
 tl::expected<void, IoError> ServedBall::open() {
@@ -159,8 +154,8 @@ tl::expected<void, IoError> ServedBall::open() {
 tl::expected<void, IoError> ServedBall::save() {
   if (options_.state_file.empty())
     return {};
-  saved_revision_ = ball_->dispatcher().revision();
-  return disk::write(numbered(options_.state_file), as_bytes(vm::save_state(*ball_)));
+  saved_revision_ = ball().dispatcher().revision();
+  return disk::write(numbered(options_.state_file), as_bytes(vm::save_state(ball())));
 }
 
 std::string ServedBall::addresses() const {
@@ -173,13 +168,13 @@ std::string ServedBall::addresses() const {
 void ServedBall::start(Clock::time_point start) {
   start_ = start;
   if (spectator_ != nullptr)
-    spectator_->on_begin(born_, *ball_);
+    spectator_->on_begin(born_, ball());
   for (const auto& link : links_)
     link->start(*this);
   step();
 }
 
-// Time: the steady clock; the ball's own runs faster or slower.
+// Time. Based on the steady clock; the ball's own time runs faster or slower.
 
 Instant ServedBall::real_time() const {
   return Instant{} + std::chrono::duration_cast<Duration>(Clock::now() - start_);
@@ -190,21 +185,21 @@ Instant ServedBall::now() const {
   return Instant{} + Duration{static_cast<Duration::rep>(real * options_.speed)};
 }
 
-// What is asked of it besides its client.
+// Control lines.
 
 std::string ServedBall::obey(const Control& control) {
   const auto time = now();
   live_until(time);
   std::string answer = "ok";
   if (const auto* happens = std::get_if<Control::Now>(&control.what))
-    ball_->apply(happens->stimulus);
+    ball().apply(happens->stimulus);
   else if (const auto* later = std::get_if<vm::TimedStimulus>(&control.what)) {
     const auto wait = later->at - time.time_since_epoch();
     if (wait < Duration{})
       return fmt::format("error: it is {:.3f} s now; write a later time, or `at now`",
                          seconds(time));
     const vm::TimedStimulus event{wait, later->stimulus};
-    ball_->schedule({&event, 1});
+    ball().schedule({&event, 1});
   } else if (std::holds_alternative<Control::Reset>(control.what))
     reset();
   else
@@ -213,37 +208,35 @@ std::string ServedBall::obey(const Control& control) {
   return answer;
 }
 
-/// Switches it off and on, and puts it where it stood at first. Its client stays.
+/// Power-cycles the ball and returns it to its starting place. The client stays connected.
 void ServedBall::reset() {
-  const auto kept = vm::save_state(*ball_);
+  const auto kept = vm::save_state(ball());
   born_ = now();
   make_ball();
-  static_cast<void>(vm::load_state(kept, *ball_)); // what it has written itself
-  saved_revision_ = ball_->dispatcher().revision();
+  static_cast<void>(vm::load_state(kept, ball())); // cannot fail: save_state() wrote it
+  saved_revision_ = ball().dispatcher().revision();
   if (spectator_ != nullptr)
-    spectator_->on_begin(born_, *ball_);
+    spectator_->on_begin(born_, ball());
   spacer_.clear();
   if (client_ == nullptr)
     return;
-  ball_->connect();
-  if (robot_)
-    robot_->connect();
+  device_->connect();
 }
 
 std::string ServedBall::state() const {
-  const auto& body = ball_->body();
+  const auto& body = ball().body();
   const auto pose = body.pose();
-  const auto color = ball_->led();
+  const auto color = ball().led();
   const auto is = [](bool so) { return so ? "yes" : "no"; };
   return fmt::format("t={:.3f} x={:.2f} y={:.2f} heading={:.2f} speed={:.2f} rgb={},{},{} "
                      "client={} program={} macro={} asleep={} volts={:.2f}",
                      seconds(now()), pose.x_cm, pose.y_cm, pose.heading_deg, pose.speed_cm_s,
-                     color.red, color.green, color.blue, is(ball_->connected()),
-                     is(ball_->basic_running()), is(ball_->macros().running()), is(ball_->asleep()),
+                     color.red, color.green, color.blue, is(ball().connected()),
+                     is(ball().basic_running()), is(ball().macros().running()), is(ball().asleep()),
                      body.battery_v());
 }
 
-/// Why its client is dropped.
+/// Explains why the client was disconnected.
 std::string ServedBall::asleep() const {
   const auto own = seconds(now()) - seconds(born_);
   const auto name = options_.count == 1 ? "the ball" : fmt::format("ball {}", index_ + 1);
@@ -259,12 +252,12 @@ void ServedBall::end() {
     spectator_->on_end(now());
 }
 
-// Clients come and go.
+// Clients.
 
 bool ServedBall::admits() {
   if (client_ == nullptr || !client_->client_left())
     return client_ == nullptr;
-  // What it said at last is heard before the next one is let in.
+  // Handle the last input of the departed client before the next one may enter.
   const auto session = session_;
   for (int i = 0; i < farewell_reads && session == session_; ++i)
     on_input();
@@ -277,9 +270,9 @@ void ServedBall::enter(Link& link) {
   client_ = &link;
   ++session_;
   live_until(now());
-  ball_->connect();
-  if (robot_)
-    robot_->connect();
+  if (witness_ != nullptr)
+    witness_->on_client(now());
+  device_->connect();
   if (pipe_)
     pipe_->reconnect(now());
   await_input();
@@ -295,9 +288,9 @@ void ServedBall::leave() {
   backlog_.clear();
   writing_ = reading_ = false;
   live_until(now());
-  if (robot_)
-    robot_->disconnect();
-  ball_->disconnect();
+  if (witness_ != nullptr)
+    witness_->on_parting(now());
+  device_->disconnect();
   link.hang_up();
   step();
 }
@@ -309,7 +302,7 @@ void ServedBall::wait_client(Link::Ready ready, void (ServedBall::*handler)()) {
   });
 }
 
-// Bytes in.
+// Input.
 
 void ServedBall::await_input() {
   if (reading_ || client_ == nullptr || backlog_.size() > backlog_most)
@@ -324,7 +317,7 @@ void ServedBall::on_input() {
   const auto size = client_->read(buffer);
   if (only_later(size))
     return await_input();
-  if (size <= 0) // the end, or EIO when the slave of a pty was closed
+  if (size <= 0) // end of file, or EIO when the slave of a pty was closed
     return leave();
   const auto bytes = ByteView(buffer).first(static_cast<std::size_t>(size));
   log(protocol::Direction::ToBall, bytes);
@@ -332,14 +325,14 @@ void ServedBall::on_input() {
   if (pipe_)
     pipe_->push(protocol::Direction::ToBall, bytes, now());
   else
-    hear(bytes);
+    device_->receive(bytes);
   const auto session = session_;
   step();
   if (session == session_)
     await_input();
 }
 
-// Time passes, packets leave.
+// Time and output.
 
 void ServedBall::step() {
   const auto time = now();
@@ -347,12 +340,10 @@ void ServedBall::step() {
   if (pipe_) {
     for (auto bytes = pipe_->take(protocol::Direction::ToBall, time); !bytes.empty();
          bytes = pipe_->take(protocol::Direction::ToBall, time))
-      hear(bytes);
+      device_->receive(bytes);
     live_until(time);
   }
-  while (robot_ && since_start(robot_->next_event()) <= time)
-    robot_->run();
-  if (!options_.state_file.empty() && ball_->dispatcher().revision() != saved_revision_)
+  if (!options_.state_file.empty() && ball().dispatcher().revision() != saved_revision_)
     if (auto saved = save(); !saved)
       fail(saved.error()); // answers still go out: the ball itself has changed
   take_packets();
@@ -361,10 +352,10 @@ void ServedBall::step() {
     send_faulty();
   for (const auto& bytes : spacer_.take(real_time()))
     write(bytes);
-  // Sleep ends the connection; who cannot be hung up on is just not heard any more.
-  if (session == session_ && client_ != nullptr && client_->can_hang_up() && !ball_->connected() &&
+  // Sleep ends the connection; a client that cannot be hung up on is just ignored.
+  if (session == session_ && client_ != nullptr && client_->can_hang_up() && !ball().connected() &&
       backlog_.empty() && !spacer_.has_messages()) {
-    if (ball_->asleep())
+    if (ball().asleep())
       options_.note(asleep());
     leave();
   }
@@ -373,33 +364,19 @@ void ServedBall::step() {
     io_.stop();
 }
 
-void ServedBall::hear(ByteView bytes) {
-  if (!robot_)
-    return ball_->receive(bytes);
-  robot_->receive(bytes);
-}
-
-void ServedBall::take_v2_packets() {
-  robot_->run(); // a collision may wait
-  const auto session = session_;
-  while (const auto packet = robot_->take_packet()) {
-    if (client_ == nullptr || session != session_)
-      continue;
-    if (pipe_)
-      pipe_->push(protocol::Direction::FromBall, *packet, now());
-    else if (backlog_.size() <= backlog_most)
-      write(*packet);
-  }
-}
-
 void ServedBall::take_packets() {
-  if (robot_)
-    return take_v2_packets();
-  while (auto packet = ball_->take_packet()) {
-    if (client_ == nullptr)
+  const bool is_v2 = spec::info(options_.robot).packets == spec::Packets::V2;
+  const auto session = session_;
+  while (auto packet = device_->take_packet()) {
+    if (client_ == nullptr || session != session_)
       continue;
     if (pipe_) {
       pipe_->push(protocol::Direction::FromBall, *packet, now());
+      continue;
+    }
+    if (is_v2) {
+      if (backlog_.size() <= backlog_most)
+        write(*packet);
       continue;
     }
     if ((*packet)[1] == spec::sop2_async) {
@@ -407,14 +384,14 @@ void ServedBall::take_packets() {
         spacer_.add_message(std::move(*packet), real_time());
       continue;
     }
-    // Once streaming has stopped, no sensor data may follow the answer that says so.
-    if (spacer_.has_messages() && ball_->streamer().next_event() == never)
+    // After streaming stops, no sensor data may follow the answer that confirms it.
+    if (spacer_.has_messages() && ball().streamer().next_event() == never)
       spacer_.hurry();
     spacer_.add_answer(std::move(*packet));
   }
 }
 
-/// The plan of faults decides when packets leave, and whether.
+/// The fault plan decides whether and when packets leave.
 void ServedBall::send_faulty() {
   const auto time = now();
   const auto session = session_;
@@ -442,7 +419,7 @@ void ServedBall::write(ByteView bytes) {
   write_backlog();
 }
 
-/// Leaves as soon as whoever writes has returned.
+/// Disconnects the client once the present write has returned.
 void ServedBall::lose_client() {
   asio::post(io_, [this, session = session_] {
     if (session == session_)
@@ -466,11 +443,10 @@ void ServedBall::on_writable() {
   await_input();
 }
 
-/// Sleeps until something happens by itself.
+/// Sets the timer to the next event.
 void ServedBall::arm() {
   auto wake = Clock::time_point::max();
-  const auto next = std::min({since_start(ball_->next_event()), pipe_ ? pipe_->next_due() : never,
-                              robot_ ? since_start(robot_->next_event()) : never});
+  const auto next = std::min(since_start(device_->next_event()), pipe_ ? pipe_->next_due() : never);
   if (next != never) {
     const auto real = static_cast<double>(next.time_since_epoch().count()) / options_.speed;
     constexpr double century = 3e18;
@@ -496,6 +472,8 @@ void ServedBall::arm() {
 }
 
 void ServedBall::log(protocol::Direction direction, ByteView bytes) {
+  if (witness_ != nullptr)
+    witness_->on_bytes(now(), direction, bytes);
   if (!log_.is_open())
     return;
   const auto line =
@@ -506,7 +484,7 @@ void ServedBall::log(protocol::Direction direction, ByteView bytes) {
   }
 }
 
-/// Said at once, not only at the end: a ball may be served for days.
+/// Reports the error at once, because a ball may be served for days.
 void ServedBall::fail(const IoError& error) {
   if (!error_)
     options_.warn(error.message);

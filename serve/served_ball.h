@@ -6,7 +6,7 @@
 #include "serve/link.h"
 #include "serve/packet_spacer.h"
 #include "serve/server.h"
-#include "vm/robot_v2.h"
+#include "vm/device.h"
 
 #include <asio/steady_timer.hpp>
 #include <chrono>
@@ -16,28 +16,29 @@
 
 namespace orb::serve {
 
-/// One ball in real time, with its links, its client and its files.
+/// One ball in real time, with its links, client and files. Large because its asynchronous handlers
+/// all work on the same ball, client and pending output.
 class ServedBall final : private Door, private vm::Observer {
 public:
   using Clock = std::chrono::steady_clock;
 
-  /// The `index`-th ball of those that `options` ask for; they and `bluez` must outlive it.
-  /// `bluez` is null where there is no Bluetooth LE.
+  /// The `index`-th ball requested by `options`; they and `bluez` must outlive it. `bluez` is null
+  /// without Bluetooth LE.
   ServedBall(asio::io_context& io, const ServeOptions& options, int index, FakeBluez* bluez);
 
-  /// Opens its links and files.
+  /// Opens links and files.
   tl::expected<void, IoError> open();
-  /// Begins to live; `start` is the moment at which balls have time 0.
+  /// Starts the ball; `start` is time 0 of all balls.
   void start(Clock::time_point start);
-  /// Does what is asked, and answers in a line without its end.
+  /// Executes a control line. Returns the answer, a line without its end.
   std::string obey(const Control& control);
-  /// It is not served any more.
+  /// Stops serving.
   void end();
-  /// A line per link.
+  /// One line per link.
   std::string addresses() const;
-  /// Writes the state file, where there is one.
+  /// Writes the state file, if there is one.
   tl::expected<void, IoError> save();
-  /// Why a file could not be written, if one could not.
+  /// The latest failure to write a file, if any.
   const std::optional<IoError>& error() const { return error_; }
 
 private:
@@ -61,20 +62,20 @@ private:
 
   Instant now() const;
   Instant real_time() const;
-  /// Moments of the ball's own time, which begins anew with each reset, as moments since the start.
+  /// Converts the ball's own time, which restarts with each reset, to time since the start.
   Instant since_start(Instant own) const {
     return own == never ? never : own + born_.time_since_epoch();
   }
-  void live_until(Instant time) { ball_->advance_to(time - born_.time_since_epoch()); }
+  void live_until(Instant time) { device_->advance_to(time - born_.time_since_epoch()); }
+  vm::Ball& ball() { return device_->ball(); }
+  const vm::Ball& ball() const { return device_->ball(); }
   std::string numbered(const std::string& name) const;
 
   void wait_client(Link::Ready ready, void (ServedBall::*handler)());
   void await_input();
   void on_input();
   void step();
-  void hear(ByteView bytes);
   void take_packets();
-  void take_v2_packets();
   void send_faulty();
   void write(ByteView bytes);
   void write_backlog();
@@ -88,25 +89,25 @@ private:
   const ServeOptions& options_;
   int index_;
   FakeBluez* bluez_;
-  Spectator* spectator_; ///< null for none
-  Instant born_{};       ///< when the ball began to live: at the start, or at the last reset
-  std::optional<vm::Ball> ball_;
-  std::optional<vm::RobotV2> robot_; ///< that the ball is, where it speaks packets v2
+  Spectator* spectator_; ///< may be null
+  Witness* witness_;     ///< may be null
+  Instant born_{};       ///< time 0 of the ball: the start, or the last reset
+  std::optional<vm::Device> device_;
   std::optional<protocol::FaultPipe> pipe_;
   Clock::time_point start_;
   asio::steady_timer timer_;
   Clock::time_point armed_ = Clock::time_point::max();
 
   std::vector<std::unique_ptr<Link>> links_;
-  Link* client_ = nullptr;    ///< the link on which the client is
-  std::uint64_t session_ = 0; ///< tells the handlers of a client that left from those of the next
+  Link* client_ = nullptr;    ///< the link of the present client
+  std::uint64_t session_ = 0; ///< tells handlers of a departed client from those of the next
   PacketSpacer spacer_;
-  Bytes backlog_; ///< what the client has not taken yet
+  Bytes backlog_; ///< output that the client has not taken
   bool writing_ = false;
   bool reading_ = false;
 
   std::ofstream log_;
-  std::optional<disk::Lock> lock_; ///< on the state
+  std::optional<disk::Lock> lock_; ///< on the state file
   std::uint64_t saved_revision_ = 0;
   std::optional<IoError> error_;
 };

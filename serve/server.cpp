@@ -19,7 +19,7 @@ tl::unexpected<Failure> fail(const IoError& error) {
   return refuse(ExitCode::File, error.message);
 }
 
-/// A line for each ball that is asked; of several each begins with its number.
+/// Writes the answer of each ball addressed; with several balls it begins with their number.
 void obey(const ServeOptions& options, std::vector<std::unique_ptr<ServedBall>>& balls,
           const std::string& line) {
   const auto control = parse_control(line, options.count);

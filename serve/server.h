@@ -20,41 +20,43 @@
 
 namespace orb::serve {
 
-/// Where and how balls are served.
+/// How balls are served.
 struct ServeOptions {
   struct Tcp {
     std::string host;
-    std::uint16_t port = 0; ///< 0 picks a free one; several balls count up
+    std::uint16_t port = 0; ///< 0 picks a free port; several balls count up
   };
   std::optional<Tcp> tcp;
   bool pty = false;
-  std::string pty_link; ///< a symlink to the slave; empty for none
-  /// Behind a Bluetooth LE that there is not, with these faults.
+  std::string pty_link; ///< symlink to the slave; empty: none
+  /// Simulated Bluetooth LE with these faults.
   std::optional<protocol::BleFaultPlan> bluez;
   int count = 1;
   double speed = 1;                        ///< seconds of the ball per second
-  spec::Robot robot = spec::Robot::Sphero; ///< whose packets it speaks
+  spec::Robot robot = spec::Robot::Sphero; ///< determines the packets
   vm::BallOptions ball;
   std::vector<vm::TimedStimulus> stimulus;
   std::optional<protocol::FaultPlan> fault;
-  std::string state_file; ///< empty for none
-  std::string log_file;   ///< a recording; empty for none
-  /// Where lines of control come from, as from read(2) (serve/control.h); empty for nowhere.
+  std::string state_file; ///< empty: none
+  std::string log_file;   ///< a recording; empty: none
+  /// Source of control lines, with the contract of read(2) (serve/control.h); empty: none.
   std::function<ssize_t(std::span<char>)> control;
-  /// Who watches the ball of that index, and outlives it; empty for nobody.
+  /// Returns the observer of a ball by index, which must outlive it; empty: none.
   std::function<Spectator*(int)> watch;
+  /// Returns the witness of the bytes, likewise.
+  std::function<Witness*(int)> hear;
   std::function<void(std::string_view)> announce = [](std::string_view) {
-  }; ///< hears a line per link, and where one moves
+  }; ///< receives a line per link, and each changed address
   std::function<void(std::string_view)> answer = [](std::string_view) {
-  }; ///< hears what control lines are answered
+  }; ///< receives answers to control lines
   std::function<void(std::string_view)> note = [](std::string_view) {
-  }; ///< hears what a ball does by itself
+  }; ///< receives news about a ball
   std::function<void(std::string_view)> warn = [](std::string_view) {
-  }; ///< hears what is unsafe or has failed
+  }; ///< receives warnings and failures
 };
 
-/// Serves balls until SIGINT or SIGTERM. Fails when a link, the state or the log cannot be opened,
-/// the state cannot be kept, or a handler throws; the state has been kept then, too.
+/// Serves balls until SIGINT or SIGTERM. Fails if a link, the state or the log cannot be opened,
+/// the state cannot be saved, or a handler throws; the state is saved in that case, too.
 tl::expected<void, Failure> serve(const ServeOptions& options);
 
 } // namespace orb::serve

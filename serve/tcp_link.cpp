@@ -13,7 +13,7 @@ using asio::ip::tcp;
 
 namespace {
 
-/// As read(2) and write(2) say it.
+/// Converts a result to that of read(2) and write(2).
 ssize_t result(std::size_t size, const asio::error_code& error) {
   if (!error || error == asio::error::eof)
     return static_cast<ssize_t>(size);
@@ -68,7 +68,7 @@ void TcpLink::start(Door& door) {
 
 void TcpLink::let_in(Door& door, tcp::socket socket) {
   if (!door.admits())
-    return; // closing the socket is the refusal
+    return; // closing the socket refuses the client
   asio::error_code ignored;
   socket.set_option(tcp::no_delay(true), ignored);
   socket.set_option(asio::socket_base::keep_alive(true), ignored);

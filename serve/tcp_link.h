@@ -8,7 +8,7 @@
 
 namespace orb::serve {
 
-/// A TCP port. A client that knocks while another one is there is turned away.
+/// A TCP port. Refuses a client while another one is connected.
 class TcpLink final : public Link {
 public:
   explicit TcpLink(asio::io_context& io) : socket_(io), acceptor_(io) {}
@@ -16,7 +16,7 @@ public:
   /// Listens on a port of this machine; 0 picks a free one.
   tl::expected<void, IoError> listen(const std::string& host, int port);
 
-  /// Whether other machines can reach it.
+  /// Returns true if other machines can reach it.
   bool is_exposed() const { return !acceptor_.local_endpoint().address().is_loopback(); }
 
   std::string address() const override;

@@ -59,7 +59,7 @@ constexpr auto bit_rows = std::to_array<Named>({
 #include "spec/names.def"
 });
 
-/// Whether `code` ascends strictly over the rows.
+/// True if `code` ascends strictly over the rows.
 template <class Rows, class Code>
 constexpr bool ascending(const Rows& rows, Code code) {
   return std::adjacent_find(std::begin(rows), std::end(rows), [code](const auto& a, const auto& b) {
@@ -97,15 +97,15 @@ std::span<const Field> owned_by(std::span<const Field> rows, std::uint16_t owner
   return {first, last};
 }
 
-/// The row whose `member` is `value`, or null.
-template <class Rows, class Member, class Value>
-const auto* find_row(const Rows& rows, Member member, const Value& value) {
+/// Finds the row whose `column` equals `value`; null if there is none.
+template <class Rows, class Column, class Value>
+const auto* find_row(const Rows& rows, Column column, const Value& value) {
   const auto* found = std::find_if(rows.data(), rows.data() + rows.size(),
-                                   [&](const auto& row) { return row.*member == value; });
+                                   [&](const auto& row) { return row.*column == value; });
   return found == rows.data() + rows.size() ? nullptr : found;
 }
 
-/// `power state` is the namespace power_state.
+/// Compares subjects: `power state` equals the namespace power_state.
 bool same_subject(std::string_view row, std::string_view subject) {
   return std::equal(row.begin(), row.end(), subject.begin(), subject.end(),
                     [](char a, char b) { return a == b || (a == '_' && b == ' '); });

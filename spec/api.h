@@ -15,7 +15,7 @@
 namespace orb::spec {
 
 inline constexpr std::uint8_t sop1 = 0xFF;
-inline constexpr std::size_t sop_size = 2; ///< SOP1 and SOP2, which no checksum covers
+inline constexpr std::size_t sop_size = 2; ///< SOP1 and SOP2, not covered by the checksum
 /// SOP2 of a command is F8h to FFh: the two low bits are options, bits 2 and 3 are ignored.
 inline constexpr std::uint8_t sop2_least = 0xF8;
 inline constexpr std::uint8_t sop2_default = 0xFF;
@@ -28,18 +28,18 @@ constexpr bool is_sop2(std::uint8_t byte) {
   return byte >= sop2_least;
 }
 
-/// The bytes before the data.
+/// Sizes of the headers before the data.
 inline constexpr std::size_t command_header_size = 6;  ///< SOP1 SOP2 DID CID SEQ DLEN
 inline constexpr std::size_t response_header_size = 5; ///< SOP1 SOP2 MRSP SEQ DLEN
 inline constexpr std::size_t async_header_size = 5;    ///< SOP1 SOP2 ID DLEN-MSB DLEN-LSB
 
-/// DLEN counts the data and the checksum; FFh means a fixed longer payload for a few commands.
+/// DLEN counts the data and the checksum. For a few commands, FFh means a fixed longer payload.
 inline constexpr std::uint8_t dlen_long = 0xFF;
 inline constexpr std::size_t max_payload = dlen_long - 1;
-/// An async message with a longer payload is taken for noise: no document describes one [?].
+/// Async messages with a longer payload are treated as noise: no document describes one [?].
 inline constexpr std::size_t max_async_payload = 4096;
 
-/// How long the ball waits for the next byte of a packet before it drops it (UPLOAD quirk).
+/// The ball drops an incomplete packet if the next byte takes longer (UPLOAD quirk).
 inline constexpr std::chrono::milliseconds fragment_timeout{500};
 
 inline constexpr std::size_t ssb_modifier_size = 272;
@@ -47,12 +47,12 @@ inline constexpr std::size_t ssb_size = 1024;
 inline constexpr std::size_t password_size = 4;
 inline constexpr std::size_t config_block_size = 1024; ///< REC
 
-/// What the sender of a refused command may do next. Source: UPLOAD.
+/// The options of a sender after a refused command. Source: UPLOAD.
 enum class Retry : std::uint8_t {
   No,        ///< the same packet will be refused again
-  SameAgain, ///< the packet was not executed: send it again at once
-  Later,     ///< the packet was not executed: send it again when the ball's state has changed
-  StartOver  ///< it is not known what was executed: repeat the whole operation
+  SameAgain, ///< not executed: send it again at once
+  Later,     ///< not executed: send it again after the ball's state has changed
+  StartOver  ///< unknown how much was executed: repeat the whole operation
 };
 
 enum class ResponseCode : std::uint8_t {
@@ -65,7 +65,7 @@ struct ResponseInfo {
   ResponseCode code;
   Retry retry;
   std::string_view name;     ///< the enumerator
-  std::string_view constant; ///< in the vendor's header
+  std::string_view constant; ///< its name in the vendor's header
   std::string_view meaning;
   std::string_view remedy; ///< empty for success
 };
@@ -77,9 +77,9 @@ inline constexpr auto responses = std::to_array<ResponseInfo>({
 #undef RESPONSE
 });
 
-/// The row of a response code; null for a value that no document names.
+/// Finds the row of a response code; null if no document names it.
 const ResponseInfo* find_response(std::uint8_t code);
-/// What to do about it; nothing about a value that no document names.
+/// How to react to a response code; nothing if no document names it.
 Retry retry_of(std::uint8_t code);
 
 /// A command: the device id in the high byte, the command id in the low one.
@@ -94,7 +94,7 @@ constexpr std::uint8_t did(ApiCommand command) {
 constexpr std::uint8_t cid(ApiCommand command) {
   return static_cast<std::uint8_t>(static_cast<std::uint16_t>(command));
 }
-/// The command of these numbers; not every value is one of the table.
+/// Combines the numbers of a command; the result may be a value without a row.
 constexpr ApiCommand api_command(std::uint8_t did, std::uint8_t cid) {
   return static_cast<ApiCommand>(did << 8 | cid);
 }
@@ -103,24 +103,24 @@ inline constexpr std::uint8_t did_core = 0x00;
 inline constexpr std::uint8_t did_bootloader = 0x01;
 inline constexpr std::uint8_t did_sphero = 0x02;
 
-/// Whether a command belongs to orbBasic, which some robots lack.
+/// True if the command belongs to orbBasic, which some robots lack.
 constexpr bool is_orbbasic(ApiCommand command) {
   return command >= ApiCommand::EraseOrbbasicStorage && command <= ApiCommand::CommitRamToFlash70;
 }
 
-/// Whether the simulated ball does it, or how it refuses. Source: UPLOAD.
+/// How the simulated ball treats a command: executes it or refuses it. Source: UPLOAD.
 enum class Status : std::uint8_t {
   Implemented,
   Factory,     ///< answers 05h: works only at the factory
-  Unsupported, ///< answers 05h: no firmware has it
+  Unsupported, ///< answers 05h: no firmware implements it
   Password,    ///< answers 0Bh: the password is not public
-  Bootloader   ///< answers 09h: the simulated bootloader takes only leave-bootloader
+  Bootloader   ///< answers 09h: the simulated bootloader accepts only leave-bootloader
 };
 
 enum class Idempotent : std::uint8_t { No, Yes };
 enum class Presence : std::uint8_t { Required, Optional };
 
-/// How a field is packed; numbers most significant byte first.
+/// The encoding of a field; numbers are sent most significant byte first.
 enum class FieldType : std::uint8_t {
   U8,
   U16,
@@ -128,13 +128,13 @@ enum class FieldType : std::uint8_t {
   U64,
   S16,
   S32,
-  Data,   ///< all bytes that are left
+  Data,   ///< all remaining bytes
   Data32, ///< exactly 32 bytes
   Text12, ///< exactly 12 bytes of text
   Text16  ///< exactly 16 bytes of text, padded with NUL
 };
 
-/// Bytes that a field takes; 0 for Data, which takes the rest.
+/// The size of a field in bytes; 0 for Data, which takes the rest.
 constexpr std::size_t field_size(FieldType type) {
   switch (type) {
   case FieldType::U8: return 1;
@@ -157,13 +157,13 @@ constexpr bool is_number(FieldType type) {
 
 /// One operand of a command, or one field of an answer or message.
 struct Field {
-  std::uint16_t owner; ///< the command's or the message's code
+  std::uint16_t owner; ///< the code of the command or message
   FieldType type;
   std::string_view name;
-  std::int64_t least; ///< of numbers the value, of Data the count; only operands have a range
+  std::int64_t least; ///< range of a number, or of the size of Data; only operands have one
   std::int64_t most;
   Presence presence;
-  std::string_view unit; ///< a unit, or a subject of spec/names.def with blanks for `_`
+  std::string_view unit; ///< a unit, or a subject of spec/names.def with spaces for `_`
 };
 
 /// A revision of the API document.
@@ -176,12 +176,12 @@ struct Revision {
 
 struct CommandInfo {
   ApiCommand command;
-  std::string_view name; ///< kebab-case, as `orb encode` and `orb exec` take it
+  std::string_view name; ///< kebab-case, as in `orb encode` and `orb exec`
   Status status;
   Idempotent idempotent;
-  Revision since; ///< documents it first
+  Revision since; ///< the first revision that documents it
   std::string_view source;
-  std::string_view example; ///< operands as `orb encode NAME` takes them
+  std::string_view example; ///< operands as for `orb encode NAME`
   std::string_view summary;
 };
 
@@ -199,15 +199,15 @@ inline constexpr auto api_commands = std::to_array<CommandInfo>({
 #include "spec/api.def"
 });
 
-/// Two operands of a command that may not come close to each other.
+/// Two operands of a command that must keep a minimum distance.
 struct Distance {
   ApiCommand command;
-  std::size_t upper; ///< which operand
+  std::size_t upper; ///< index of the operand
   std::size_t lower;
-  std::int64_t least; ///< how much more `upper` is, in the unit of both
+  std::int64_t least; ///< minimum of `upper` - `lower`, in the unit of both
 };
 
-/// The row of a command; null for most of them.
+/// Finds the row of a command; null for most.
 const Distance* distance(ApiCommand command);
 
 /// The fields of all answers, in the order of the commands.
@@ -227,7 +227,7 @@ inline constexpr auto answer_rows = std::to_array<Field>({
 });
 #undef ANSWER_FIELD
 
-/// Where a field of an answer begins; a name that the answer does not have does not compile.
+/// The offset of a field in an answer. An unknown field name does not compile.
 consteval std::size_t answer_offset(ApiCommand command, std::string_view field) {
   std::size_t offset = 0;
   for (const auto& row : answer_rows) {
@@ -240,30 +240,30 @@ consteval std::size_t answer_offset(ApiCommand command, std::string_view field) 
   throw "the answer has no such field";
 }
 
-/// The operands of a command in the order of the wire.
+/// The operands of a command, in wire order.
 std::span<const Field> operands(ApiCommand command);
-/// The fields of its answer; none for a Simple Response.
+/// The fields of its answer; empty for a Simple Response.
 std::span<const Field> answer(ApiCommand command);
 
-/// The row of a command, by its numbers or its name; null when there is none.
+/// Finds a command by its numbers or its name; null if there is none.
 const CommandInfo* find_command(std::uint8_t did, std::uint8_t cid);
 const CommandInfo* find_command(std::string_view name);
 /// The row of an enumerator.
 const CommandInfo& info(ApiCommand command);
 
-/// The messages that the ball sends unasked.
+/// The messages that the ball sends unsolicited.
 enum class AsyncId : std::uint8_t {
 #define ASYNC(enumerator, code, ...) enumerator = code,
 #include "spec/async.def"
 };
 
-/// Whether a message comes of itself, or as the rest of an answer that only announced it.
+/// How a message arrives: unsolicited, or as the rest of an answer that only announced it.
 enum class Arrival : std::uint8_t { Unasked, AsAnswer };
 
 struct AsyncInfo {
   AsyncId id;
   std::string_view name;    ///< kebab-case
-  std::string_view enabler; ///< the command that turns it on, DID and CID; empty when none does
+  std::string_view enabler; ///< the command that enables it, DID and CID; empty if none does
   Arrival arrival;
   std::string_view source;
   std::string_view summary;
@@ -277,7 +277,7 @@ inline constexpr auto asyncs = std::to_array<AsyncInfo>({
 
 std::span<const Field> fields(AsyncId id);
 
-/// The records of spec/records.def, and the places of their fields.
+/// The records of spec/records.def, and the offsets of their fields.
 std::span<const Field> config_fields();
 namespace config_at {
 enum : std::size_t {
@@ -300,10 +300,10 @@ enum : std::size_t {
 };
 } // namespace life_at
 
-/// The row of a message id; null when there is none.
+/// Finds the row of a message id; null if there is none.
 const AsyncInfo* find_async(std::uint8_t id);
 
-// Values and bits of fields: one namespace a subject, such as power_state::charging.
+// Values and bits of fields: a namespace per subject, such as power_state::charging.
 #define NAMED_VALUE(subject, name, value, text)                                                    \
   namespace subject {                                                                              \
   inline constexpr std::uint8_t name = value;                                                      \
@@ -314,22 +314,23 @@ const AsyncInfo* find_async(std::uint8_t id);
   }
 #include "spec/names.def"
 
-/// The areas for programs, by their number in the commands. Source: API §Erase orbBasic Storage.
+/// The storage areas for programs, by their number in commands. Source: API §Erase orbBasic
+/// Storage.
 enum class Area : std::uint8_t { Ram = area::ram, Flash = area::flash };
 
-/// A value, or a bit, of the fields whose unit is `subject`.
+/// A named value or bit of the fields whose unit is `subject`.
 struct Named {
   std::string_view subject;
   std::uint32_t value; ///< the value, or the mask of the bit
   std::string_view text;
 };
 
-/// The name of a value of a subject such as `power state`; empty when it has none.
+/// The name of a value of a subject such as `power state`; empty if it has none.
 std::string_view value_name(std::string_view subject, std::uint32_t value);
-/// The names of the bits that are set, with commas; empty when none is or the subject has no bits.
+/// The names of the set bits, comma-separated; empty if none is set or the subject has no bits.
 std::string bit_names(std::string_view subject, std::uint32_t value);
 
-/// What can be streamed. Source: API §Set Data Streaming.
+/// The sources of data streaming. Source: API §Set Data Streaming.
 enum class StreamSource : std::uint8_t {
 #define STREAM(enumerator, ...) enumerator,
 #include "spec/streams.def"
@@ -345,7 +346,7 @@ struct StreamInfo {
   std::string_view unit; ///< of one LSB
 };
 
-/// In the order in which their values stand in a frame.
+/// In the order of their values in a frame.
 inline constexpr auto streams = std::to_array<StreamInfo>({
 #define STREAM(enumerator, word, bit, name, least, most, unit)                                     \
   {StreamSource::enumerator,                                                                       \
@@ -358,7 +359,7 @@ inline constexpr auto streams = std::to_array<StreamInfo>({
 #undef STREAM
 });
 
-/// The fixed payload that DLEN FFh stands for with this command; 0 where FFh is an ordinary length.
+/// The fixed payload size that DLEN FFh means for this command; 0 if FFh is an ordinary length.
 constexpr std::size_t long_payload(std::uint8_t did, std::uint8_t cid) {
   if (did != did_sphero)
     return 0;

@@ -1,6 +1,6 @@
 #pragma once
 
-// The ball itself in numbers. The rows are in spec/ball.def.
+// The ball in numbers. The rows are in spec/ball.def.
 
 #include <algorithm>
 #include <array>
@@ -16,7 +16,7 @@ using ms = std::chrono::milliseconds;
 #undef BALL
 } // namespace ball
 
-/// How a robot drives: the classic ball's numbers, until a robot has rows of its own.
+/// How a robot drives. The defaults are the classic ball's; rows of a robot override them.
 struct Driving {
   double speed_offset = ball::speed_offset;
   double speed_slope = ball::speed_slope;
@@ -26,27 +26,27 @@ struct Driving {
   double turn_gain = ball::turn_gain;
   int dead_steps = static_cast<int>(ball::dead_time.count()) * ball::control_rate / 1000;
 };
-/// A battery, in V: the classic ball's, until a robot has a row of its own.
+/// Battery voltages, in V. The defaults are the classic ball's; rows of a robot override them.
 struct Battery {
   double full = ball::full_battery;       ///< at power-on
-  double charged = ball::charged_battery; ///< where charging ends
-  double empty = ball::empty_battery;     ///< the lowest that shows
+  double charged = ball::charged_battery; ///< charging ends
+  double empty = ball::empty_battery;     ///< lowest shown
   double low = ball::default_low_battery / 100.0;
   double critical = ball::default_critical_battery / 100.0;
 };
 
-/// Which way a robot's own coordinates point, seen from where it faced at 0,0.
+/// The directions of a robot's own coordinates, relative to its heading at 0,0.
 enum class Axes : unsigned char {
   RightAhead, ///< x to the right, y ahead
   AheadLeft   ///< x ahead, y to the left
 };
 
-/// So long a dead time can be, in steps of the control system.
+/// The longest dead time, in steps of the control system.
 inline constexpr int most_dead_steps = 127;
 static_assert(Driving{}.dead_steps <= most_dead_steps);
 
-/// The steady speed at an ordered value, 0 to 255: three straight lines. None of them leads
-/// backward: where the second begins below 0, the robot stands still up to there.
+/// The steady speed for a commanded value, 0 to 255: piecewise linear, three segments, clamped at
+/// 0. If the second segment begins below 0, the robot does not move until it rises above.
 constexpr double speed_cm_s(const Driving& numbers, int ordered) {
   const auto on_line = [&](int value) {
     return std::max(0.0, numbers.speed_offset + numbers.speed_slope * value);
@@ -61,7 +61,7 @@ constexpr double speed_cm_s(const Driving& numbers, int ordered) {
 }
 
 struct BallNumber {
-  std::string_view name; ///< the constant's
+  std::string_view name; ///< the name of the constant
   double value;
   std::string_view unit; ///< may be empty
   std::string_view source;

@@ -1,7 +1,7 @@
 #pragma once
 
 // The orbBasic language of the robot as tables: statements, functions, system variables, operators,
-// errors and flags. The rows, and what their columns mean, are in spec/basic.def.
+// errors and flags. The rows and their columns are in spec/basic.def.
 
 #include "spec/limits.h"
 
@@ -23,8 +23,8 @@ enum class BasicVersion : std::uint8_t {
 
 struct BasicVersionInfo {
   BasicVersion version;
-  std::string_view text; ///< as in `--target`
-  Limit ram;             ///< the most bytes that the RAM area of a ball of that time has
+  std::string_view text; ///< as for `--target`
+  Limit ram;             ///< the most bytes of the RAM area of a ball of that time
   std::string_view summary;
 };
 
@@ -33,10 +33,10 @@ inline constexpr auto basic_versions = std::to_array<BasicVersionInfo>({
 #include "spec/basic.def"
 });
 
-/// The version that is assumed where nobody names one: the last of which is known what it added.
+/// The version assumed if none is given: the last one whose additions are known.
 inline constexpr auto default_basic_version = BasicVersion::V1_7;
 
-/// What came later to a word that was there before.
+/// Later extensions of existing words.
 enum class BasicGrowth : std::uint8_t {
 #define ORB_BASIC_GROWTH(name, ...) name,
 #include "spec/basic.def"
@@ -60,38 +60,38 @@ enum class Statement : std::uint8_t {
 #include "spec/basic.def"
 };
 
-/// What stands after a statement's word.
+/// The syntax after a statement's word.
 enum class Form : std::uint8_t {
-  Assignment,    ///< `v = e`, the word itself may be missing
+  Assignment,    ///< `v = e`; the word may be omitted
   Conditional,   ///< `if`
   Loop,          ///< `for`
   LoopEnd,       ///< `next`
-  Branch,        ///< one line number, written out
+  Branch,        ///< one literal line number
   IndexedBranch, ///< `on`
   Output,        ///< `print`
   Entry,         ///< `input`
-  Values,        ///< one or more expressions, without an upper bound
+  Values,        ///< one or more expressions, without a limit
   Variables,     ///< one or more variables
-  Arguments,     ///< as many expressions, separated by commas, as there are parameters
+  Arguments,     ///< comma-separated expressions, one per parameter
 };
 
-/// Whether a statement may stand after `then` and `else`.
+/// Tells if a statement may follow `then` and `else`.
 enum class InThen : std::uint8_t {
   Listed,   ///< documented
-  Unlisted, ///< works, but is not in the documented list (A-44)
+  Unlisted, ///< works, but is missing from the documented list (A-44)
   Refused,  ///< a syntax error
 };
 
-/// What runs after a statement.
+/// Control flow after a statement.
 enum class After : std::uint8_t {
-  Falls,  ///< the line below
-  Waits,  ///< the line below, after some time
-  Steers, ///< the line below or another one
-  Jumps,  ///< another line
-  Ends,   ///< nothing in the text says what: the program or the subroutine ends here
+  Falls,  ///< to the line below
+  Waits,  ///< to the line below, after some time
+  Steers, ///< to the line below or another one
+  Jumps,  ///< to another line
+  Ends,   ///< the program or the subroutine ends; the text gives no successor
 };
 
-/// A numeric argument; a value outside of `least` to `greatest` stops the program with Bad numeric
+/// A numeric argument. A value outside `least` to `greatest` stops the program with Bad numeric
 /// parameter.
 struct Parameter {
   std::string_view name;
@@ -107,11 +107,11 @@ struct StatementInfo {
   Form form;
   InThen in_then;
   After after;
-  std::uint8_t required; ///< how many arguments must be there
+  std::uint8_t required; ///< number of required arguments
   std::string_view source;
   std::string_view usage;
   std::string_view summary;
-  std::string_view example; ///< a line that can be pasted
+  std::string_view example; ///< a line to paste
   std::array<Parameter, 4> parameter_slots;
 
   constexpr std::span<const Parameter> parameters() const {
@@ -153,7 +153,7 @@ inline constexpr auto statements = std::to_array<StatementInfo>({
 #undef NO_PARAMETERS
 });
 
-/// Prefix functions; their operand is the whole expression that follows.
+/// Prefix functions. The operand is the whole expression that follows.
 enum class Function : std::uint8_t {
 #define ORB_FUNCTION(name, ...) name,
 #include "spec/basic.def"
@@ -162,7 +162,7 @@ enum class Function : std::uint8_t {
 struct FunctionInfo {
   Function function;
   std::string_view word;
-  std::int64_t least; ///< an operand below stops the program with Bad numeric parameter
+  std::int64_t least; ///< a lesser operand stops the program with Bad numeric parameter
   std::int64_t greatest;
   std::string_view source;
   std::string_view summary;
@@ -190,10 +190,10 @@ enum class Access : std::uint8_t {
 struct VariableInfo {
   Variable variable;
   std::string_view word;
-  std::string_view old_word; ///< its name before `since`; empty where it has had one name
+  std::string_view old_word; ///< its name before `since`; empty if it was never renamed
   BasicVersion since;
   Access access;
-  std::int32_t least; ///< the least value that it reads as
+  std::int32_t least; ///< the least value that it can read
   std::int32_t greatest;
   std::string_view unit; ///< may be empty
   std::string_view source;
@@ -207,12 +207,12 @@ inline constexpr auto variables = std::to_array<VariableInfo>({
 #include "spec/basic.def"
 });
 
-/// A unit that is small beside what people say in its place: milliseconds and seconds.
+/// A unit that people rarely use, such as milliseconds, with the everyday one, seconds.
 struct SmallUnit {
   std::string_view unit;
-  std::int32_t in_whole; ///< how many are one of `whole`
+  std::int32_t in_whole; ///< how many make one `whole`
   std::string_view whole;
-  std::int32_t least_meant; ///< a smaller number, written alone, counts in `whole`
+  std::int32_t least_meant; ///< a smaller number without a unit counts in `whole`
 };
 
 inline constexpr auto small_units = std::to_array<SmallUnit>({
@@ -225,7 +225,7 @@ enum class Operator : std::uint8_t {
 #include "spec/basic.def"
 };
 
-/// How strongly an operator binds; equals are taken from the left.
+/// The precedence of an operator; equals associate to the left.
 enum class Level : std::uint8_t { Low, Medium };
 
 struct OperatorInfo {
@@ -258,7 +258,7 @@ inline constexpr auto relations = std::to_array<RelationInfo>({
 #include "spec/basic.def"
 });
 
-/// What stops a program; the values are the robot's error numbers.
+/// Errors that stop a program. The values are the robot's error numbers.
 enum class BasicError : std::uint8_t {
 #define ORB_BASIC_ERROR(name, code, text, summary) name = code,
 #include "spec/basic.def"
@@ -266,7 +266,7 @@ enum class BasicError : std::uint8_t {
 
 struct BasicErrorInfo {
   BasicError error;
-  std::string_view text; ///< the robot's own words
+  std::string_view text; ///< the robot's wording
   std::string_view summary;
 };
 
@@ -284,7 +284,7 @@ enum class BasicFlag : std::uint8_t {
 struct BasicFlagInfo {
   BasicFlag flag;
   BasicVersion since;
-  std::string_view symbol; ///< the document's name
+  std::string_view symbol; ///< its name in the document
   std::string_view summary;
 };
 
@@ -294,7 +294,7 @@ inline constexpr auto basic_flags = std::to_array<BasicFlagInfo>({
 #include "spec/basic.def"
 });
 
-/// Words that are part of other statements.
+/// Words inside other statements.
 inline constexpr auto particles =
     std::to_array<std::string_view>({"then", "else", "and", "or", "to", "step"});
 
@@ -323,7 +323,7 @@ constexpr const BasicErrorInfo& info(BasicError error) {
   return basic_errors[static_cast<std::size_t>(error) - 1]; // numbered from 1
 }
 
-/// The row of a unit; null for one in which people speak.
+/// Finds the row of a unit; null for an everyday unit.
 constexpr const SmallUnit* find_small_unit(std::string_view unit) {
   for (const auto& row : small_units)
     if (row.unit == unit)
@@ -331,7 +331,7 @@ constexpr const SmallUnit* find_small_unit(std::string_view unit) {
   return nullptr;
 }
 
-/// The row of that very word, or nothing. Case counts: `rgb` is not a statement.
+/// Finds the row of exactly this word. Case counts: `rgb` is not a statement.
 constexpr std::optional<BasicVersion> find_version(std::string_view text) {
   for (const auto& row : basic_versions)
     if (row.text == text)
@@ -350,7 +350,7 @@ constexpr std::optional<Function> find_function(std::string_view word) {
       return row.function;
   return std::nullopt;
 }
-/// Finds a system variable by its present or its former name.
+/// Finds a system variable by its current or former name.
 constexpr std::optional<Variable> find_variable(std::string_view word) {
   for (const auto& row : variables)
     if (row.word == word || (!row.old_word.empty() && row.old_word == word))
@@ -369,7 +369,7 @@ constexpr std::optional<Relation> find_relation(char symbol) {
       return row.relation;
   return std::nullopt;
 }
-/// The error of that number, as the robot reports it.
+/// Finds an error by the number that the robot reports.
 constexpr std::optional<BasicError> find_error(std::uint32_t code) {
   if (code < 1 || code > basic_errors.size())
     return std::nullopt;
@@ -380,7 +380,7 @@ constexpr std::uint8_t code(BasicError error) {
   return static_cast<std::uint8_t>(error);
 }
 
-// The rows hold what the lookups above rely on.
+// Check the properties of the rows that the lookups above rely on.
 consteval bool basic_words_are_unique() {
   std::array<std::string_view,
              statements.size() + functions.size() + 2 * variables.size() + particles.size()>

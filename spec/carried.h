@@ -2,8 +2,8 @@
 
 namespace orb::spec {
 
-/// A row of the tables of commands as a program carries it. Where ORB_BRIEF_RULES is defined it is
-/// without what only the reference shows, for a program that every visitor of a page loads.
+/// A row of a table of commands as linked into a program. ORB_BRIEF_RULES drops what only the
+/// reference shows, to keep the download of a web page small.
 template <typename Row>
 constexpr Row carried(Row row) {
 #ifdef ORB_BRIEF_RULES

@@ -1,6 +1,6 @@
 #pragma once
 
-// The colours as tables. The rows, and what their columns mean, are in spec/colours.def.
+// The tables of colours. The rows and their columns are in spec/colours.def.
 
 #include <array>
 #include <cstddef>
@@ -9,11 +9,11 @@
 
 namespace orb::spec {
 
-/// A colour that people name.
+/// A named colour.
 struct Colour {
-  std::string_view name; ///< after `RGB` in a structured program; empty: there is none
+  std::string_view name; ///< after `RGB` in a structured program; empty: none
   std::uint32_t rgb;
-  std::string_view words; ///< all that mean it, the name among them; a blank between two
+  std::string_view words; ///< all words for it, the name included, space-separated
 };
 
 inline constexpr auto colours = std::to_array<Colour>({

@@ -10,7 +10,7 @@
 #include <span>
 #include <string_view>
 
-/// Which firmware a simulated ball runs. Source: SEMANTICS of versions in docs/protocol.md.
+/// The firmware of a simulated ball. Source: SEMANTICS of versions in docs/reference/protocol.md.
 namespace orb::spec {
 
 enum class Firmware : std::uint8_t {
@@ -18,7 +18,7 @@ enum class Firmware : std::uint8_t {
 #include "spec/firmware.def"
 };
 
-/// The places of the version record, which ended before the API revision at first.
+/// The offsets in the version record. Early records end before the API revision.
 inline constexpr auto version_model_at = answer_offset(ApiCommand::GetVersioning, "model");
 inline constexpr auto version_firmware_at =
     answer_offset(ApiCommand::GetVersioning, "firmware version");
@@ -29,7 +29,7 @@ inline constexpr auto version_api_at = answer_offset(ApiCommand::GetVersioning, 
 inline constexpr auto version_record_max =
     answer_offset(ApiCommand::GetVersioning, "api minor") + 1;
 
-/// The RAM area for orbBasic by the revision of the API, in bytes, the final NUL included.
+/// The size of the orbBasic RAM area by API revision, in bytes, including the final NUL.
 constexpr std::uint16_t ram_bytes_of(Revision api) {
   struct Row {
     Revision since;
@@ -45,7 +45,7 @@ constexpr std::uint16_t ram_bytes_of(Revision api) {
   return 0;
 }
 
-/// An orbBasic (packed nibbles) and the API that is as old.
+/// An orbBasic version (packed nibbles) and the API of the same date.
 struct BasicAge {
   std::uint8_t orbbasic;
   Revision api;
@@ -56,8 +56,7 @@ inline constexpr auto basic_ages = std::to_array<BasicAge>({
 #include "spec/firmware.def"
 });
 
-/// The API revision behind a record of 8 bytes, as far as its orbBasic tells; 0.0 where it does
-/// not.
+/// The API revision for a record of 8 bytes, inferred from its orbBasic; 0.0 if unknown.
 constexpr Revision api_of(std::uint8_t orbbasic) {
   for (const auto& row : basic_ages)
     if (orbbasic >= row.orbbasic)
@@ -65,8 +64,8 @@ constexpr Revision api_of(std::uint8_t orbbasic) {
   return {};
 }
 
-/// The language of a ball whose version record tells an orbBasic (packed nibbles) and an API: as
-/// new as the newer of the two. A version that has no row adds nothing to the one before.
+/// The language of a ball that reports this orbBasic (packed nibbles) and this API: the newer of
+/// the two. A version without a row adds nothing to the one before.
 constexpr BasicVersion language_of(std::uint8_t orbbasic, Revision api) {
   for (const auto& row : basic_ages)
     if (api >= row.api && orbbasic < row.orbbasic)
@@ -81,12 +80,12 @@ constexpr BasicVersion language_of(std::uint8_t orbbasic, Revision api) {
   return language;
 }
 
-/// Where a model keeps its firmware.
+/// Where a model stores its firmware.
 struct FlashPages {
   std::uint8_t model;
   int first;
   int count;
-  int bytes; ///< of a page
+  int bytes; ///< per page
 
   constexpr bool has(int page) const { return page >= first && page < first + count; }
 };
@@ -96,13 +95,13 @@ inline constexpr auto flash_pages = std::to_array<FlashPages>({
 #include "spec/firmware.def"
 });
 
-/// What the answers say about the packets that were received: Level 2 Diagnostics.
+/// How the firmware answers the packet counts of Level 2 Diagnostics.
 enum class Level2 : std::uint8_t {
-  Told,
-  Refused, ///< 04h, as a command that there is not
+  Supported,
+  Refused, ///< 04h, as for an unknown command
 };
 
-/// What a value out of range does to a program.
+/// The effect of a value out of range on a program.
 enum class Ranges : std::uint8_t {
   Documented, ///< stops it
   Lenient,    ///< colours are clamped and negative headings wrapped; others stop it
@@ -110,7 +109,7 @@ enum class Ranges : std::uint8_t {
 
 struct FirmwareInfo {
   Firmware firmware;
-  std::string_view name; ///< as `--firmware` takes it
+  std::string_view name; ///< as for `--firmware`
   std::array<std::uint8_t, version_record_max> record_bytes;
   std::uint8_t record_size; ///< 8 or 10
   Revision api;
@@ -118,38 +117,40 @@ struct FirmwareInfo {
   Ranges ranges;
   std::string_view summary;
 
-  /// The answer of Get Versioning.
+  /// The answer to Get Versioning.
   constexpr std::span<const std::uint8_t> record() const {
     return std::span(record_bytes).first(record_size);
   }
-  /// The orbBasic version in packed nibbles: 16h is 1.6; 0 where there is none.
+  /// The orbBasic version in packed nibbles: 16h is 1.6; 0 without orbBasic.
   constexpr std::uint8_t orbbasic() const { return record_bytes[version_orbbasic_at]; }
   constexpr bool has_orbbasic() const { return orbbasic() != 0; }
-  /// What its programs are written in, where it has orbBasic.
+  /// The language of its programs, if it has orbBasic.
   constexpr BasicVersion language() const { return language_of(orbbasic(), api); }
   /// The version of the macro executive, as in spec/macro.def.
   constexpr std::uint8_t macro_executive() const { return record_bytes[version_macro_at]; }
-  /// Whether there is a firmware that the bootloader can start.
+  /// True if the bootloader has a firmware to start.
   constexpr bool has_firmware() const {
     return record_bytes[version_firmware_at] != 0 || record_bytes[version_firmware_at + 1] != 0;
   }
-  /// Of the orbBasic RAM area, the final NUL included; 0 without orbBasic.
+  /// The size of the orbBasic RAM area, including the final NUL; 0 without orbBasic.
   constexpr std::uint16_t ram_bytes() const {
     return has_orbbasic() ? ram_bytes_of(api) : std::uint16_t{0};
   }
 
-  /// Whether bit 1 of SOP2 decides if a command resets the inactivity timer; earlier every one did.
-  /// Since firmware 1.26 (API §Client Command Packets).
+  /// True if bit 1 of SOP2 decides whether a command resets the inactivity timer; earlier, every
+  /// command did. Since firmware 1.26 (API §Client Command Packets).
   constexpr bool has_option_bits() const {
     constexpr Revision first{1, 26};
     return Revision{record_bytes[version_firmware_at], record_bytes[version_firmware_at + 1]} >=
            first;
   }
 
-  /// Whether this firmware has the command: by the API revision, and orbBasic's only with orbBasic.
+  /// True if this firmware has the command. Depends on the API revision; commands of orbBasic also
+  /// need orbBasic.
   constexpr bool knows(const CommandInfo& command) const {
     return command.since <= api && (has_orbbasic() || !is_orbbasic(command.command)) &&
-           (level_2 == Level2::Told || command.command != ApiCommand::PerformLevel2Diagnostics);
+           (level_2 == Level2::Supported ||
+            command.command != ApiCommand::PerformLevel2Diagnostics);
   }
 };
 
@@ -182,7 +183,7 @@ constexpr const FirmwareInfo& info(Firmware firmware) {
   return firmwares[static_cast<std::size_t>(firmware)];
 }
 
-/// Where a model keeps its firmware; null for one of which nobody says.
+/// Finds where a model stores its firmware; null if no source says.
 constexpr const FlashPages* find_flash_pages(std::uint8_t model) {
   for (const auto& row : flash_pages)
     if (row.model == model)
@@ -190,7 +191,7 @@ constexpr const FlashPages* find_flash_pages(std::uint8_t model) {
   return nullptr;
 }
 
-/// The row of a name such as `bb-8`; null when there is none.
+/// Finds a firmware by a name such as `bb-8`; null if there is none.
 constexpr const FirmwareInfo* find_firmware(std::string_view name) {
   for (const auto& row : firmwares)
     if (row.name == name)

@@ -1,6 +1,6 @@
 #pragma once
 
-// The limits of the robot that are numbers of their own. The rows are in spec/limits.def.
+// Limits of the robot. The rows are in spec/limits.def.
 
 #include <array>
 #include <cstddef>
@@ -33,12 +33,12 @@ constexpr const LimitInfo& info(Limit limit) {
   return limits[static_cast<std::size_t>(limit)];
 }
 
-/// The number itself: `value_of(Limit::ForDepth)`.
+/// The value of a limit: `value_of(Limit::ForDepth)`.
 constexpr std::int32_t value_of(Limit limit) {
   return info(limit).value;
 }
 
-/// The variables that have letters of their own: A, B and so on.
+/// The variables with their own letters: A, B and so on.
 inline constexpr auto letter_count = static_cast<std::size_t>(value_of(Limit::DirectVariables));
 constexpr char letter_name(std::size_t letter) {
   return static_cast<char>('A' + letter);

@@ -1,8 +1,8 @@
 #pragma once
 
-// The macro system as the robot knows it: commands, flags, parameters, identifiers and sizes.
-// Source: the macro part of the quick reference and of the low-level API; where they disagree, the
-// byte output of the vendor's own libraries decides (spec/SOURCES.md).
+// The macro system of the robot: commands, flags, parameters, identifiers and sizes. Source: the
+// macro part of the quick reference and of the low-level API; if they disagree, the byte output of
+// the vendor's own libraries decides (spec/SOURCES.md).
 
 #include <array>
 #include <cstddef>
@@ -24,24 +24,24 @@ enum class MacroFlag : std::uint8_t {
 #undef MACRO_FLAG
 };
 
-/// The system-wide values that API command Set Macro Parameter (57h) changes.
+/// The system-wide values set by API command Set Macro Parameter (57h).
 enum class MacroParameter : std::uint8_t {
 #define MACRO_PARAMETER(Name, index, ...) Name = index,
 #include "spec/macro.def"
 #undef MACRO_PARAMETER
 };
 
-/// What an operand counts. Ticks10ms is a time in steps of 10 ms.
+/// The unit of an operand. Ticks10ms is a time in steps of 10 ms.
 enum class MacroUnit : std::uint8_t { None, Milliseconds, Ticks10ms, Degrees };
 
 enum class MacroOperandKind : std::uint8_t {
   Number,
-  Delay,   ///< how long to wait after the command; may be left out in source, then 0
-  MacroId, ///< a macro's number, or its name in source
-  Text     ///< a length in 16 bits, then that many bytes
+  Delay,   ///< the wait after the command; 0 if omitted in source
+  MacroId, ///< the number of a macro; in source, its name too
+  Text     ///< a 16-bit length, then that many bytes
 };
 
-/// A value of an operand that has a word in source.
+/// A word for a value of an operand in source.
 struct MacroWord {
   std::string_view word;
   std::int32_t value = 0;
@@ -51,34 +51,36 @@ struct MacroOperand {
   std::string_view name;
   MacroOperandKind kind = MacroOperandKind::Number;
   MacroUnit unit = MacroUnit::None;
-  std::uint8_t width = 1; ///< bytes; of the length where the operand is a text
+  std::uint8_t width = 1; ///< bytes; for a text, of its length
   bool is_signed = false;
   std::int32_t minimum = 0;
   std::int32_t maximum = 0;
-  const MacroWord* words = nullptr; ///< the words for its values
+  const MacroWord* words = nullptr; ///< words for its values
   std::uint8_t word_count = 0;
 
   constexpr const MacroWord* begin_words() const { return words; }
   constexpr const MacroWord* end_words() const { return words + word_count; }
 };
 
-/// What a command waits for before the next one runs.
+/// The wait of a command before the next one runs.
 enum class MacroWait : std::uint8_t {
   None,
   Operand, ///< its last operand
   Sd1,     ///< system delay 1
   Sd2,     ///< system delay 2
-  Stopped  ///< until the ball stands still, at most its last operand
+  Stopped  ///< until the ball stops, at most its last operand
 };
 
-/// What goes on while later commands run.
+/// The effect that continues while later commands run.
 enum class MacroBackground : std::uint8_t { None, Fade, Rotate };
 
-/// Where a command means something. `end` is ignored in a stream, as is `gosub`.
+/// Where a command takes effect. A stream ignores `end` and `gosub`.
 enum class MacroPlace : std::uint8_t { Anywhere, OnlyInStream, NeverInStream };
 
 inline constexpr std::size_t macro_max_operands = 6;
 
+/// A row of spec/macro.def. Large because it says everything that assembler, executive, checks and
+/// reference need to know about a command.
 struct MacroCommandInfo {
   MacroCommand command{};
   std::uint8_t code = 0;
@@ -86,7 +88,7 @@ struct MacroCommandInfo {
   std::string_view title; ///< its name in the quick reference
   std::array<MacroOperand, macro_max_operands> operand{};
   std::uint8_t operand_count = 0;
-  std::uint8_t length = 1;      ///< bytes with the code; of a comment without its text
+  std::uint8_t length = 1;      ///< bytes including the code; for a comment without its text
   bool variable_length = false; ///< a text follows
   bool has_pcd = false;         ///< its last byte is a post command delay
   MacroWait wait = MacroWait::None;
@@ -121,7 +123,7 @@ struct MacroParameterInfo {
 #include "spec/macro.def"
 #undef MACRO_NUMBER
 
-/// The same as rows.
+/// The same numbers as rows.
 struct MacroNumber {
   std::string_view name;
   std::uint32_t value = 0;
@@ -269,7 +271,7 @@ namespace macro_detail {
 
 inline constexpr std::uint8_t no_row = 0xFF;
 
-/// Code to row, for the decoder's inner loop.
+/// Maps a code to its row, for the decoder's inner loop.
 inline constexpr auto row_of_code = [] {
   std::array<std::uint8_t, 256> rows{};
   for (auto& row : rows)
@@ -282,7 +284,7 @@ inline constexpr auto row_of_code = [] {
 
 inline constexpr std::size_t slots = 256;
 
-/// Where the search for a mnemonic begins; it goes on upwards to the first empty slot.
+/// The first slot to probe for a mnemonic; the search continues upwards to the first empty slot.
 constexpr std::size_t slot_of(std::string_view mnemonic) {
   const auto at = [&](std::size_t i) { return static_cast<unsigned char>(mnemonic[i]); };
   return (at(0) * 7U + at(mnemonic.size() / 2) * 31U + at(mnemonic.size() - 1) * 3U +
@@ -290,7 +292,7 @@ constexpr std::size_t slot_of(std::string_view mnemonic) {
          slots;
 }
 
-/// Mnemonic to row, for the parser's inner loop.
+/// Maps a mnemonic to its row, for the parser's inner loop.
 inline constexpr auto row_of_mnemonic = [] {
   std::array<std::uint8_t, slots> rows{};
   for (auto& row : rows)
@@ -370,13 +372,13 @@ constexpr const MacroParameterInfo& info(MacroParameter parameter) {
   return macro_parameters[static_cast<std::size_t>(parameter)];
 }
 
-/// The row of a command byte; null where the byte is not a command.
+/// Finds the row of a command byte; null if the byte is not a command.
 constexpr const MacroCommandInfo* find_macro_command(std::uint8_t code) {
   const auto row = macro_detail::row_of_code[code];
   return row == macro_detail::no_row ? nullptr : &macro_commands[row];
 }
 
-/// The row of a mnemonic; null where there is none. Case counts.
+/// Finds the row of a mnemonic; null if there is none. Case counts.
 constexpr const MacroCommandInfo* find_macro_command(std::string_view mnemonic) {
   if (mnemonic.empty())
     return nullptr;
@@ -389,7 +391,7 @@ constexpr const MacroCommandInfo* find_macro_command(std::string_view mnemonic) 
   }
 }
 
-/// The row of a flag's word; null where there is none.
+/// Finds the row of a flag's word; null if there is none.
 constexpr const MacroFlagInfo* find_macro_flag(std::string_view word) {
   for (const auto& info : macro_flags)
     if (info.word == word)
@@ -397,23 +399,23 @@ constexpr const MacroFlagInfo* find_macro_flag(std::string_view word) {
   return nullptr;
 }
 
-/// The parameter with this index, where there is one.
+/// Finds the parameter with this index.
 constexpr std::optional<MacroParameter> find_macro_parameter(std::uint8_t index) {
   if (index < std::size(macro_parameters))
     return macro_parameters[index].parameter;
   return std::nullopt;
 }
 
-/// Whether a macro with these flags has `flag`.
+/// True if `flags` include `flag`.
 constexpr bool has_flag(std::uint8_t flags, MacroFlag flag) {
   return (flags & static_cast<std::uint8_t>(flag)) != 0;
 }
 
-/// `ms`, `10 ms`, `deg` or nothing.
+/// Prints a unit: `ms`, `10 ms`, `deg`, or nothing.
 std::string_view to_string(MacroUnit unit);
 
-/// Whether `value` is one that the documents give the operand: within its range, and of the macro
-/// identifiers not the stream macro's, which nothing can go to.
+/// True if the documents allow `value` for the operand: it is in range and, for macro identifiers,
+/// not the stream macro, which cannot be a target.
 constexpr bool is_documented(const MacroOperand& operand, std::int32_t value) {
   if (operand.kind == MacroOperandKind::MacroId && value == macro_id_stream)
     return false;

@@ -11,10 +11,10 @@ namespace orb::spec {
 inline constexpr std::uint8_t v2_start = 0x8D;
 inline constexpr std::uint8_t v2_end = 0xD8;
 inline constexpr std::uint8_t v2_escape = 0xAB;
-/// A byte that has a meaning of its own goes out as the escape and itself without these bits.
+/// A reserved byte is sent as the escape byte followed by the byte with these bits cleared.
 inline constexpr std::uint8_t v2_escape_bits = 0x88;
 
-/// A packet with more bytes between start and end is taken for noise [?].
+/// Packets with more bytes between start and end are treated as noise [?].
 inline constexpr std::size_t v2_max_packet = 4096;
 
 enum class V2Flag : std::uint8_t {
@@ -52,7 +52,7 @@ inline constexpr auto v2_errors = std::to_array<V2ErrorInfo>({
 #include "spec/packet_v2.def"
 });
 
-/// The row of an error code; null for a code that no document names.
+/// Finds the row of an error code; null if no document names it.
 constexpr const V2ErrorInfo* find_v2_error(std::uint8_t code) {
   for (const auto& row : v2_errors)
     if (row.code == static_cast<V2Error>(code))

@@ -12,7 +12,7 @@
 #include <span>
 #include <string_view>
 
-/// The robots, and what those of packets v2 understand and say. Source: LIB, PKT.
+/// The robots, and the commands and messages of those with packets v2. Source: LIB, PKT.
 namespace orb::spec {
 
 enum class Robot : std::uint8_t {
@@ -20,12 +20,12 @@ enum class Robot : std::uint8_t {
 #include "spec/robots.def"
 };
 
-/// Some robots, a bit each.
+/// A set of robots, one bit each.
 using V2Robots = std::uint32_t;
 constexpr V2Robots only(Robot robot) {
   return 1U << static_cast<unsigned>(robot);
 }
-/// The sets that rows of commands name.
+/// The sets used by rows of commands.
 namespace v2_set {
 inline constexpr V2Robots Mini = only(Robot::Mini);
 inline constexpr V2Robots Bolt = only(Robot::Bolt);
@@ -46,7 +46,7 @@ enum class V2Command : std::uint16_t {
   None = 0xFFFF ///< no command
 };
 
-/// Which processor a command is for, or a message is from, in a robot that has two.
+/// The processor that a command addresses, or that sent a message, in a robot with two.
 enum class V2Processor : std::uint8_t { Any, Primary, Secondary };
 
 /// The TID of a processor: port 1, node 1 or 2.
@@ -54,18 +54,21 @@ constexpr std::uint8_t v2_target(V2Processor processor) {
   return processor == V2Processor::Secondary ? 0x12 : 0x11;
 }
 inline constexpr std::uint8_t v2_client = 0x01;      ///< SID of a client
-inline constexpr std::uint8_t v2_message_seq = 0xFF; ///< SEQ of what comes unasked
+inline constexpr std::uint8_t v2_message_seq = 0xFF; ///< SEQ of unsolicited messages
 inline constexpr std::uint8_t v2_last_seq = 0xFE;    ///< SEQ of requests counts 0 to this
-/// A robot stops by itself so long after the last drive command.
+/// A robot stops by itself this long after the last drive command.
 inline constexpr std::chrono::milliseconds v2_drive_timeout{2000};
-/// Flags of drive-with-heading.
+/// Flags of drive-with-heading. Backward it faces the heading and rolls the other way: so use it
+/// the examples of the vendor's SDK for the RVR, and a program for BOLTs (purdue-arc/sphero-swarm).
+/// A vendor's word on the Ollie (Sphero-Android-SDK issue 22) says the opposite. [?]
 inline constexpr std::uint8_t v2_drive_backward = 1;
 inline constexpr std::uint8_t v2_drive_turbo = 2;
 inline constexpr std::uint8_t v2_drive_fast_turn = 4;
 inline constexpr std::uint8_t v2_drive_left = 0x08;
 inline constexpr std::uint8_t v2_drive_right = 0x10;
 inline constexpr std::uint8_t v2_drive_drift = 0x20;
-/// An RVR sleeps after so long without a packet that resets its time-out, and says so before. [?]
+/// An RVR goes to sleep after this long without a packet that resets its time-out, and announces
+/// it. [?]
 inline constexpr std::chrono::seconds v2_sleeps_after{300};
 inline constexpr std::chrono::seconds v2_sleep_warning{10};
 
@@ -77,7 +80,7 @@ struct V2CommandInfo {
   V2Processor processor;
   V2Robots robots;
   std::string_view source;
-  std::string_view example; ///< operands as a shell gives them
+  std::string_view example; ///< operands as typed in a shell
   std::string_view summary;
 
   std::uint8_t did() const { return static_cast<std::uint8_t>(static_cast<int>(command) >> 8); }
@@ -94,7 +97,7 @@ inline constexpr auto v2_commands = [] {
   });
 }();
 
-/// The row of a command; null for one that no row names.
+/// Finds the row of a command; null if there is none.
 constexpr const V2CommandInfo* find_v2_command(std::uint8_t did, std::uint8_t cid) {
   for (const auto& row : v2_commands)
     if (static_cast<int>(row.command) == (did << 8 | cid))
@@ -121,7 +124,7 @@ struct V2Field {
   V2Type type;
   std::string_view name;
   std::int64_t least = 0;
-  std::int64_t most = 0; ///< of Text and Data: how many bytes
+  std::int64_t most = 0; ///< for Text and Data: the most bytes
 };
 
 inline constexpr auto v2_operands = std::to_array<V2Field>({
@@ -180,21 +183,21 @@ enum class V2Sensor : std::uint8_t {
 
 struct V2SensorInfo {
   V2Sensor sensor;
-  std::uint32_t bit; ///< of its mask
+  std::uint32_t bit; ///< in its mask
   V2Mask mask;
   std::string_view name;
   std::string_view unit;
   std::string_view source;
 };
 
-/// In the order in which a sample has them.
+/// In the order of their values in a sample.
 inline constexpr auto v2_sensors = std::to_array<V2SensorInfo>({
 #define V2_SENSOR(enumerator, bit, mask, name, unit, source)                                       \
   {V2Sensor::enumerator, 1U << (bit), V2Mask::mask, name, unit, source},
 #include "spec/robots.def"
 });
 
-/// The row of a bit of a mask; null for one that no row names.
+/// Finds the row of a bit of a mask; null if there is none.
 constexpr const V2SensorInfo* find_v2_sensor(V2Mask mask, std::uint32_t bit) {
   for (const auto& row : v2_sensors)
     if (row.mask == mask && row.bit == bit)
@@ -215,7 +218,7 @@ struct V2ServiceInfo {
   std::string_view name;
   std::size_t values;
   double greatest;
-  std::size_t which; ///< a value, from 0, that has another greatest
+  std::size_t which; ///< index of the value with another greatest
   double other;
   V2Sign sign;
   std::string_view source;
@@ -247,22 +250,22 @@ constexpr const V2ServiceInfo* find_v2_service(std::uint16_t id) {
 
 enum class Packets : std::uint8_t { V1, V2 };
 enum class RobotSensors : std::uint8_t { None, Mask, Services };
-/// The processors that commands to a robot may name. Any: it has one, and takes both.
+/// The processors that commands may address. Any: the robot has one and accepts both.
 enum class Targets : std::uint8_t { None, Any, First, Both };
 
 struct RobotInfo {
   Robot robot;
-  std::string_view name;  ///< as the command line takes it
-  std::string_view title; ///< as people call it
+  std::string_view name;  ///< as on the command line
+  std::string_view title; ///< its name for people
   BleModel ble;
   Packets packets;
   Targets targets;
-  std::chrono::milliseconds interval; ///< from one command to the next, at least
+  std::chrono::milliseconds interval; ///< minimum time between commands
   RobotSensors sensors;
   V2Command lamps;
   std::uint32_t body;   ///< the lamps that RGB and LEDC set
-  std::uint32_t aiming; ///< those that backLED sets
-  int slowest;          ///< what a drive command must say before it moves at all
+  std::uint32_t aiming; ///< the lamps that backLED sets
+  int slowest;          ///< the least speed of a drive command that moves it
   std::string_view source;
 };
 
@@ -288,13 +291,19 @@ inline constexpr auto robots = std::to_array<RobotInfo>({
 constexpr const RobotInfo& info(Robot robot) {
   return robots[static_cast<std::size_t>(robot)];
 }
-/// The voltages of its battery, and where it is low and critical.
+/// Its battery voltages, with the low and critical thresholds.
 constexpr Battery battery(Robot which) {
 #define BATTERY(robot, full, charged, empty, low, critical, source)                                \
   if (which == Robot::robot)                                                                       \
     return {full, charged, empty, low, critical};
 #include "spec/robots.def"
   return {};
+}
+/// How full it is, in percent.
+constexpr int charge(const Battery& battery, double volts) {
+  constexpr double full = 100;
+  const double part = (volts - battery.empty) / (battery.charged - battery.empty);
+  return static_cast<int>(std::clamp(part, 0.0, 1.0) * full + 0.5); // rounded
 }
 /// The axes of its locator and its velocity.
 constexpr Axes axes(Robot which) {
@@ -304,7 +313,7 @@ constexpr Axes axes(Robot which) {
 #include "spec/robots.def"
   return Axes::RightAhead;
 }
-/// So long after it was woken it drops what moves it, though it acknowledges that.
+/// For this long after waking, the robot acknowledges drive commands but drops them.
 constexpr std::chrono::milliseconds wakes_in(Robot which) {
 #define WAKES(robot, ms, source)                                                                   \
   if (which == Robot::robot)                                                                       \
@@ -312,7 +321,7 @@ constexpr std::chrono::milliseconds wakes_in(Robot which) {
 #include "spec/robots.def"
   return {};
 }
-/// How it drives.
+/// How it drives: like the classic ball, except for its DRIVING rows.
 constexpr Driving driving(Robot which) {
   Driving numbers;
 #define DRIVING(robot, number, value, source)                                                      \
@@ -328,7 +337,7 @@ constexpr const RobotInfo* find_robot(std::string_view name) {
   return nullptr;
 }
 
-/// What programs say and a robot does not have.
+/// A word of programs without effect on a robot.
 struct RobotLack {
   Robot robot;
   std::string_view word;
@@ -340,7 +349,7 @@ inline constexpr auto robot_lacks = std::to_array<RobotLack>({
 #include "spec/robots.def"
 });
 
-/// The row of a word that the robot does not have; null for what it has.
+/// Finds the row of a word without effect on the robot; null if the robot supports the word.
 constexpr const RobotLack* find_lack(Robot robot, std::string_view word) {
   for (const auto& row : robot_lacks)
     if (row.robot == robot && row.word == word)
@@ -348,12 +357,13 @@ constexpr const RobotLack* find_lack(Robot robot, std::string_view word) {
   return nullptr;
 }
 
-/// Whether the robot knows the command.
+/// True if the robot supports the command.
 constexpr bool knows(const RobotInfo& robot, const V2CommandInfo& command) {
   return (command.robots & only(robot.robot)) != 0;
 }
 
-/// What a drive command says for a program's speed, 0 to 255, so that 1 moves it; and back.
+/// Converts a program's speed, 0 to 255, to that of a drive command, so that 1 moves the robot; and
+/// back.
 constexpr int speed_on_wire(const RobotInfo& robot, int speed) {
   if (robot.slowest == 0 || speed == 0)
     return speed;

@@ -1,19 +1,19 @@
 #pragma once
 
-// What one step of a number is worth, read from its unit: `0.1 deg/s`, `1/4096 G`, `cm`.
+// The value of one step, parsed from its unit: `0.1 deg/s`, `1/4096 G`, `cm`.
 
 #include <string_view>
 
 namespace orb::spec {
 
-/// How many steps of `unit` are one of what it counts: 10 for `0.1 deg/s`, 4096 for `1/4096 G`, 1
-/// for `cm`. A fraction, so that a step which is no binary number loses nothing.
+/// Steps per unit: 10 for `0.1 deg/s`, 4096 for `1/4096 G`, 1 for `cm`. Kept as a fraction, so that
+/// decimal steps stay exact.
 struct Scale {
   double steps = 1;
   double per = 1;
 
   constexpr double of(double value) const { return value * steps / per; }
-  /// The other way: what so many steps are.
+  /// Converts steps back to the unit.
   constexpr double back(double number) const { return number * per / steps; }
 };
 

@@ -2,7 +2,7 @@
 
 #include "base/fixes.h"
 #include "compiler/text/image.h"
-#include "compiler/text/parse.h"
+#include "compiler/text/parse_basic.h"
 #include "repair/repair.h"
 #include "spec/limits.h"
 #include "structured/emit/choices.h"
@@ -10,16 +10,16 @@
 #include "structured/emit/size.h"
 #include "structured/emit/source_lines.h"
 #include "structured/lower/lower.h"
-#include "structured/lower/plan.h"
+#include "structured/lower/lowering_plan.h"
 #include "structured/meaning/check.h"
 #include "structured/optimise/optimise.h"
-#include "structured/text/blocks.h"
-#include "structured/text/parse.h"
+#include "structured/text/link_blocks.h"
+#include "structured/text/parse_structured.h"
 #include "structured/text/read.h"
 #include "structured/text/rules.h"
 #include "structured/text/silence.h"
+#include "structured/text/structured_words.h"
 #include "structured/text/texts.h"
-#include "structured/text/words.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -28,7 +28,7 @@
 namespace orb::structured {
 namespace {
 
-/// The letter that a variable would like: its own where it is one, else its first.
+/// The preferred letter of a variable: its own name if that is a letter, else its first letter.
 std::vector<std::uint8_t> wishes_of(const Program& program, const Names& names, const Code& code) {
   std::vector<std::uint8_t> wishes(code.variables.size(), no_letter);
   for (std::size_t v = 1; v < code.variables.size(); ++v) {
@@ -66,7 +66,7 @@ bool report_chain(Compiled& compiled, const Plan& plan) {
     return false;
   auto& program = compiled.program;
   Message chain;
-  constexpr std::size_t told = 6; // names; of a long chain the first and the last
+  constexpr std::size_t told = 6; // names shown; of a long chain, the first and the last
   for (std::size_t i = 0; i < plan.chain.size(); ++i) {
     const auto& routine = compiled.names.routines[plan.chain[i]];
     if (const auto left_out = plan.chain.size() - told;
@@ -112,7 +112,7 @@ Diagnostic wrong_index(const Compiled& compiled, const WrongIndex& wrong) {
                      : texts::NeverAnElement(name, array.value));
 }
 
-/// Says what can only stop the program, wherever the statement runs.
+/// Reports indices that certainly stop the program; returns true if there are any.
 bool report_indices(Compiled& compiled) {
   for (const auto& wrong : compiled.code.wrong_indices)
     compiled.program.diagnostics.push_back(wrong_index(compiled, wrong));
@@ -133,7 +133,7 @@ bool has_program(const Program& program) {
   return false;
 }
 
-/// Comments for people: what each part of the program is, and which line of the source.
+/// Comments for readers: the part of the program, and the source line.
 class ReadableComments final : public RobotComments {
 public:
   explicit ReadableComments(const Compiled& compiled) : compiled_(compiled) {}
@@ -143,7 +143,7 @@ public:
     const auto& program = compiled_.program;
     const auto before = std::exchange(routine_, line.routine);
     if (before != routine_ && routine_ == 0) {
-      text += "' main program\n"; // its last lines stand behind the subs
+      text += "' main program\n"; // its last lines come after the subs
     } else if (before != routine_) {
       const auto& symbol = compiled_.names.symbols[compiled_.names.routines[routine_].symbol];
       text += fmt::format("' {} {}\n", symbol.kind == SymbolKind::Sub ? "sub" : "function",
@@ -172,7 +172,7 @@ private:
   std::uint32_t origin_ = none;
 };
 
-/// The variable of the whole program that has a name, or none.
+/// Finds the global variable with a name, or none.
 std::uint32_t shared_variable(const Program& program, const Names& names, std::string_view name) {
   for (std::uint32_t s = 0; s < names.symbols.size(); ++s)
     if (names.symbols[s].kind == SymbolKind::Variable &&
@@ -194,19 +194,19 @@ void keep(Compiled& compiled, std::string_view name) {
     return;
   auto& code = compiled.code;
   auto variable = code_variable(code, symbol);
-  if (variable == none) { // nothing that runs sets it
+  if (variable == none) { // no reachable line sets it
     variable = code.new_variable();
     code.variables[variable].symbol = symbol;
   }
   code.variables[variable].kept = true;
 }
 
-/// Whether a variable that nobody reads is likely another one, misspelt.
+/// True if an unread variable is probably a misspelling of another one.
 bool is_slip(const Diagnostic& one) {
   return one.rule == &rules::UnusedName && !one.help.empty();
 }
 
-/// Compiles what has been read; the findings say how far that went.
+/// Compiles the program that was read, as far as its findings permit.
 void compile(Compiled& compiled, const compiler::Target& target,
              const std::vector<std::string>& kept, Shape shape) {
   if (compiled.program.statements.empty() && !compiled.has_errors())
@@ -245,7 +245,7 @@ void compile(Compiled& compiled, const compiler::Target& target,
   compiled.image = compiler::build_image(compiled.lines, compiler::Packing::Packed);
   find_meaning(compiled.program, compiled.names, lines, target);
   check_size(compiled, target);
-  // What comes of a slip in a name waits until that is mended.
+  // Hold back the consequences of a misspelt name until it is fixed.
   auto& all = compiled.program.diagnostics;
   if (std::any_of(all.begin(), all.end(), is_slip))
     all.erase(std::remove_if(all.begin() + static_cast<std::ptrdiff_t>(own), all.end(),
@@ -267,8 +267,7 @@ std::vector<std::string_view> all_words() {
   return words;
 }
 
-/// The findings about the main file as far as names and values go, its spans counted from its
-/// begin.
+/// The findings of the front end about the main file, with spans from its start.
 std::vector<Diagnostic> front(const std::string& name, const std::string& path,
                               std::string_view text, const compiler::Target& target, Files& files) {
   auto program = read(name, path, text, files);
@@ -287,7 +286,7 @@ bool parses(std::string_view line) {
   });
 }
 
-/// The line to write, for each error of the main file.
+/// Adds a replacement line to each error of the main file.
 void offer_lines(Compiled& compiled, std::string_view text, const compiler::Target& target,
                  Files& files) {
   auto& program = compiled.program;

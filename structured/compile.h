@@ -13,27 +13,27 @@
 
 namespace orb::structured {
 
-/// Compiles a structured program. `path` is what the files it names count from; they are read
-/// through `files`. Any bytes will do. The variables `kept` have a letter of their own and hold
-/// their values to the end, read or not: what somebody looks at from outside.
+/// Compiles a structured program. Included paths are relative to `path` and are read through
+/// `files`. Accepts any bytes. The variables `kept` get letters of their own and keep their values
+/// to the end, read or not, so that they can be inspected from outside.
 Compiled compile(std::string name, std::string path, std::string_view text,
                  const compiler::Target& target, Files& files,
                  const std::vector<std::string>& kept = {}, Shape shape = Shape::Shortest);
 
-/// The robot's lines, parsed. They refer to `compiled`, which must stay where it is, and can be
-/// taken once.
+/// Takes the robot's lines, parsed; call it once. They refer to `compiled`, which must stay in
+/// place.
 compiler::Program take_lines(Compiled& compiled);
 
-/// The letter that holds a variable of the whole program, 0 for A; nothing where none has that
-/// name, or where it is neither kept nor in use.
+/// The letter of a global variable, 0 for A; nothing if there is no such variable, or if it is
+/// neither kept nor used.
 std::optional<std::uint8_t> letter_of(const Compiled& compiled, std::string_view name);
 
-/// That a program holds nothing that would run, which `check` allows and every other command
-/// refuses.
+/// The finding about a program without statements. `check` allows it, every other command refuses
+/// it.
 Diagnostic nothing_to_run();
 
-/// The same lines numbered 10 by 10, with the names of subs and variables and the lines of the
-/// source in comments: a valid program that does the same.
+/// The same lines numbered by 10, with comments that give the names of subs and variables and the
+/// source lines: a valid program with the same behaviour.
 std::string readable(const Compiled& compiled);
 
 } // namespace orb::structured

@@ -1,6 +1,7 @@
 #include "testing/check_room.h"
 
 #include "run/room.h"
+#include "testing/check_javascript.h"
 #include "testing/text/rules.h"
 #include "testing/texts.h"
 
@@ -18,7 +19,9 @@ void check_room(SuiteFile& file, structured::Files& files) {
     one.name = ball.name.text;
     one.options.start = ball.start;
     one.options.course = file.course.get();
-    if (&ball != &balls.front()) // of the first one program_path() tells
+    if (is_javascript(ball.program.text))
+      refuse_in_room(file, ball);
+    if (&ball != &balls.front()) // program_path() reports the first ball
       if (const auto path = structured::resolve_path(file.source->name(), ball.program.text);
           !files.read(path))
         findings.push_back(finding(rules::File, ball.program.span, texts::CannotRead(path),

@@ -4,8 +4,9 @@
 
 namespace orb::testing {
 
-/// Tells of the balls of a room whose programs are not there, or who start inside each other or in
-/// a wall of the course, which has been read. Of the first ball's program the suite tells itself.
+/// Reports balls of a room whose programs are missing, and balls that start inside each other or in
+/// a wall of the course. Call it after the course is read. The suite itself reports the first
+/// ball's program.
 void check_room(SuiteFile& file, structured::Files& files);
 
 } // namespace orb::testing

@@ -10,10 +10,10 @@
 namespace orb::testing {
 namespace {
 
-// Lines that are kept to find the nearest among; a longer list helps nobody.
+// Enough to choose the nearest from; nobody reads a longer list.
 constexpr std::size_t most_kept = 50;
 
-/// Words that are true or not at a moment.
+/// Judges words that are true or false at each moment.
 class StateJudge final : public Judge {
 public:
   StateJudge(const Expectation& one, const Meaning& meaning) : one_(one), meaning_(meaning) {}
@@ -35,7 +35,7 @@ public:
       longest_ = to - *since_;
       longest_from_ = {*since_, from.running};
     }
-    // What comes after the end is no time in which it lasts.
+    // A state does not last into the time after the end.
     if (long_enough > to || (to == never_ends && one_.when.kind == When::Kind::AtEnd))
       return look(from, to, s, long_enough <= from.t);
     if (long_enough > from.t)
@@ -52,7 +52,7 @@ public:
   static constexpr Duration never_ends = Duration::max();
 
 private:
-  /// It was true, or not, from `from.t` until `to`.
+  /// Records that it was true or false from `from.t` until `to`.
   void look(const Moment& from, Duration to, const Sighting& s, bool is_true) {
     using Kind = When::Kind;
     const auto& when = one_.when;
@@ -78,7 +78,7 @@ private:
       conclude();
   }
 
-  /// A moment at which it is true, until `last`.
+  /// Records a moment at which it is true; it stays true until `last`.
   void look_for(const Moment& at, const Sighting& s, Duration last, bool is_true) {
     if (at.t > last)
       return;
@@ -106,13 +106,13 @@ private:
       miss(texts::At(seen_of(s, at.t), words(at.t)), at);
   }
 
-  /// What was seen, and of what has to last since when.
+  /// Describes what was seen and, for an expectation with a duration, since when it was true.
   Message seen_of(const Sighting& s, Duration t) const {
     auto seen = describe(one_, meaning_, s);
     return since_ ? texts::LastingFor(std::move(seen), words(t - *since_)) : seen;
   }
 
-  /// It was true at no moment.
+  /// Decides when it was true at no moment.
   void conclude() {
     if (one_.never || one_.when.kind == When::Kind::During)
       return meet();
@@ -123,7 +123,7 @@ private:
 
   const Expectation& one_;
   const Meaning& meaning_;
-  std::optional<Duration> since_; ///< where it has to last: true without a break from here on
+  std::optional<Duration> since_; ///< with a duration: the start of the current unbroken stretch
   Duration longest_{};
   Moment longest_from_;
   double nearest_ = infinite;
@@ -131,7 +131,7 @@ private:
   Moment best_at_;
 };
 
-/// `stay`: in the zone all the time.
+/// `stay`: in the zone at every moment.
 class StayJudge final : public Judge {
 public:
   StayJudge(const Expectation& one, const Meaning& meaning) : one_(one), meaning_(meaning) {}
@@ -156,7 +156,7 @@ private:
   const Meaning& meaning_;
 };
 
-/// Words that happen: counts how often, and keeps what came near.
+/// Judges words that happen: counts them, and keeps the near misses.
 class EventJudge final : public Judge {
 public:
   EventJudge(const Expectation& one, const Meaning& meaning) : one_(one), meaning_(meaning) {}
@@ -170,7 +170,7 @@ public:
     case Pattern::Found::Yes: return happen(at, texts::Printed(shown_line(line.text)));
     case Pattern::Found::No: return near(at, texts::Printed(shown_line(line.text)), line.text);
     case Pattern::Found::GaveUp:
-      // At once: with the next lines it would be no better, and nobody would wait for it.
+      // Fail now: later lines cannot mend it, and waiting costs time.
       return miss(texts::TooManySteps(shown_line(line.text)), at);
     }
   }
@@ -282,7 +282,7 @@ private:
          best->at);
   }
 
-  /// With the time in which it was looked for, where that is not the whole run.
+  /// Includes the time window unless it is the whole run.
   Message nothing_in_time() const {
     switch (one_.when.kind) {
     case When::Kind::Within: return texts::Until(nothing(), words(one_.when.to));
@@ -303,12 +303,12 @@ private:
   }
 
   struct Kept {
-    std::string line; ///< that was printed; empty for what else happened
+    std::string line; ///< the printed line; empty for other events
     Message what;
     Moment at;
   };
 
-  /// The line that is most like the expected one; of equals the first.
+  /// Returns the line most like the expected one, the first of equals.
   const Kept* nearest() const {
     const Kept* best = nullptr;
     std::size_t least = 0;
@@ -328,10 +328,10 @@ private:
   const Expectation& one_;
   const Meaning& meaning_;
   std::uint64_t count_ = 0;
-  std::string listed_; ///< the first of their times
+  std::string listed_; ///< the first times at which it happened
   std::vector<Kept> kept_;
-  Sighting sighting_;         ///< what was seen last
-  std::optional<Kept> apart_; ///< it happened while what is joined was not true
+  Sighting sighting_;         ///< the latest sighting
+  std::optional<Kept> apart_; ///< an event during which a joined state was false
   std::optional<Moment> last_;
 };
 
@@ -417,7 +417,7 @@ private:
   const Meaning& meaning_;
 };
 
-/// What the program has no name for.
+/// A name that the program does not have.
 class ProblemJudge final : public Judge {
 public:
   explicit ProblemJudge(const Meaning& meaning) { miss(meaning.problem); }
@@ -451,7 +451,7 @@ bool watches_steps(const Expectation& one) {
 
 std::string words(Duration t) {
   const double seconds = std::chrono::duration<double>(t).count();
-  constexpr double short_time = 0.01; // of which hundredths would show nothing
+  constexpr double short_time = 0.01; // seconds; below this, hundredths would round to nothing
   return seconds > 0 && seconds < short_time ? plain(seconds * 1000, 1) + " ms" // in milliseconds
                                              : plain(seconds, 2) + " s";
 }

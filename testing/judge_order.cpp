@@ -1,4 +1,4 @@
-// What comes after or before something else.
+// Judges of `after` and `before`.
 
 #include "testing/judge.h"
 #include "testing/texts.h"
@@ -8,7 +8,7 @@
 namespace orb::testing {
 namespace {
 
-/// The same without its relation.
+/// The expectation without its relation.
 Expectation alone(Expectation one) {
   one.order = Order::Free;
   one.other = nullptr;
@@ -21,7 +21,7 @@ When shifted(When when, Duration by) {
   return when;
 }
 
-/// Waits for the other one, and from then on judges as if the run had begun there.
+/// Waits for the other event, then judges as if the run had begun there.
 class AfterJudge final : public Judge {
 public:
   AfterJudge(const Expectation& one, const Meaning& meaning)
@@ -65,7 +65,7 @@ public:
   }
 
 private:
-  /// What happens is the first or the second, never both.
+  /// An event counts as the first or the second, never as both.
   template <class Tell>
   void happen(Tell tell) {
     if (certain())
@@ -80,7 +80,7 @@ private:
   void hear_first(Tell tell) {
     if (!first_->certain())
       tell(*first_);
-    if (first_->verdict() != Verdict::Met)
+    if (first_->decision() != Decision::Met)
       return;
     begin_ = first_->moment() ? first_->moment()->t : Duration{};
     if (later_.when.kind != When::Kind::AnyTime && later_.when.kind != When::Kind::AtEnd)
@@ -95,7 +95,7 @@ private:
     tell(*second_);
     if (!second_->certain())
       return;
-    if (second_->verdict() == Verdict::Missed)
+    if (second_->decision() == Decision::Missed)
       return miss(second_->seen(), second_->moment());
     if (!one_.lag || !second_->moment())
       return meet(second_->moment());
@@ -108,12 +108,13 @@ private:
   const Expectation& one_;
   const Meaning& meaning_;
   std::unique_ptr<Judge> first_;
-  Expectation later_; ///< its times count from the start of the run once that is known
+  Expectation later_; ///< its times, measured from the start of the run; set once the other event
+                      ///< has happened
   std::unique_ptr<Judge> second_;
   Duration begin_{};
 };
 
-/// Which of the two comes first.
+/// Judges which of the two comes first.
 class BeforeJudge final : public Judge {
 public:
   BeforeJudge(const Expectation& one, const Meaning& meaning)
@@ -156,8 +157,8 @@ private:
     for (auto* judge : {first_.get(), other_.get()})
       if (!judge->certain())
         tell(*judge);
-    const bool came = first_->verdict() == Verdict::Met;
-    const bool other_came = other_->verdict() == Verdict::Met;
+    const bool came = first_->decision() == Decision::Met;
+    const bool other_came = other_->decision() == Decision::Met;
     if (other_came && (!came || time_of(*other_) < time_of(*first_)))
       return never_ ? meet(other_->moment())
                     : miss(texts::OtherCameFirst(words(time_of(*other_))), other_->moment());

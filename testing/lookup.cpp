@@ -2,6 +2,7 @@
 
 #include "base/meant.h"
 #include "spec/limits.h"
+#include "testing/check_javascript.h"
 #include "testing/text/rules.h"
 #include "testing/texts.h"
 
@@ -13,7 +14,7 @@
 namespace orb::testing {
 namespace {
 
-/// What there is in place of a name that there is not.
+/// Suggests the known name nearest to an unknown one.
 Message meant(std::string_view word, const std::vector<std::string_view>& known,
               const Row<>& none) {
   return meant_or(word, known,
@@ -28,7 +29,7 @@ std::vector<std::string_view> variables_of(const structured::Compiled& compiled)
   return names;
 }
 
-/// The letter of a variable.
+/// Finds a variable's letter.
 void find_variable(const Expectation& one, const Prepared& program, Lookup& found) {
   const auto& name = one.name.text;
   const auto* first = run::first_with_program(program.inputs);
@@ -92,6 +93,8 @@ Lookup look_up_alone(const Expectation& one, const SuiteFile& file, const Prepar
   found.meaning.packed_bytes = program.packed_bytes;
   if (one.other_ball)
     found.meaning.other_ball = file.file.balls[*one.other_ball].name.text;
+  if (program.is_javascript() && refuse_of_robot(one, program, found))
+    return found;
   if (one.word == Word::Inside || one.word == Word::Stay)
     find_zone(one, file, found);
   else if (one.word == Word::Marker && !one.name.text.empty())

@@ -4,24 +4,24 @@
 
 #include <vector>
 
-// What the names in the expectations of a test mean.
+// Looks up the names in the expectations of a test.
 
 namespace orb::testing {
 
-/// What a name means in a program, or why it means nothing.
+/// What a name refers to in a program, or why it refers to nothing.
 struct Lookup {
   Meaning meaning;
-  const Rule* rule = nullptr; ///< of the finding, where there is a problem
+  const Rule* rule = nullptr; ///< of the finding, if there is a problem
   Message help;
 };
 
-/// One word of an expectation.
+/// Looks up one expectation, without those joined to it.
 Lookup look_up_alone(const Expectation& one, const SuiteFile& file, const Prepared& program);
 
-/// All that an expectation speaks of: itself, what is joined, and the other one.
+/// Lists an expectation with everything joined to it and the other one it refers to.
 std::vector<const Expectation*> parts_of(const Expectation& one);
 
-/// What an expectation means with all its parts.
+/// Looks up an expectation with all its parts.
 Meaning look_up(const Expectation& one, const SuiteFile& file, const Prepared& program);
 
 } // namespace orb::testing

@@ -19,18 +19,18 @@ namespace {
 
 namespace basic = compiler;
 
-// ---- what is printed
+// ---- output
 
 /// A part of a printed line.
-struct Piece {
+struct PrintedPart {
   enum class Kind : std::uint8_t { Text, Number, Character };
   Kind kind = Kind::Text;
-  std::string text; ///< Text
+  std::string text; ///< for Text
 };
-using Printed = std::vector<Piece>;
+using Printed = std::vector<PrintedPart>;
 
-/// The lines that a program can print, one for each `print`; nothing where a line is more than one
-/// `print`, or has numbers of its lines in it.
+/// The lines that a program can print, one for each `print`. Nothing if one line comes from several
+/// `print`s or contains numbers computed from line numbers.
 std::optional<std::vector<Printed>> printed_lines(const basic::Program& program) {
   std::vector<Printed> lines;
   for (const auto& statement : program.statements) {
@@ -43,7 +43,7 @@ std::optional<std::vector<Printed>> printed_lines(const basic::Program& program)
       return std::nullopt;
     auto& line = lines.emplace_back();
     const auto add_text = [&](std::string_view text) {
-      if (line.empty() || line.back().kind != Piece::Kind::Text)
+      if (line.empty() || line.back().kind != PrintedPart::Kind::Text)
         line.emplace_back();
       line.back().text += text;
     };
@@ -54,26 +54,26 @@ std::optional<std::vector<Printed>> printed_lines(const basic::Program& program)
       else if (item.kind == basic::ItemKind::Comma)
         add_text(" ");
       else if (item.kind == basic::ItemKind::Character)
-        line.push_back({Piece::Kind::Character, {}});
+        line.push_back({PrintedPart::Kind::Character, {}});
       else if (item.kind == basic::ItemKind::Expression)
-        line.push_back({Piece::Kind::Number, {}});
+        line.push_back({PrintedPart::Kind::Number, {}});
     }
   }
   return lines;
 }
 
-/// By how many pieces and characters are left: from where the rest has been looked for.
+/// Pieces and characters left at points where the search has already failed.
 using DeadEnds = std::set<std::pair<std::size_t, std::size_t>>;
 
-/// The way that a printed line can be `text`, as it is then printed: its letters are compared by
-/// `equal`. Nothing where it cannot.
+/// Returns how a printed line can equal `text`, spelled as the program prints it; `equal` compares
+/// letters. Nothing if it cannot.
 template <typename Equal>
-std::optional<std::string> as_printed(std::span<const Piece> line, std::string_view text,
+std::optional<std::string> as_printed(std::span<const PrintedPart> line, std::string_view text,
                                       const Equal& equal, DeadEnds& dead) {
   if (line.empty())
     return text.empty() ? std::optional(std::string()) : std::nullopt;
   if (!dead.insert({line.size(), text.size()}).second)
-    return std::nullopt; // where this way led before
+    return std::nullopt; // this search failed before
   const auto with = [&](std::string_view printed, std::size_t taken) {
     auto rest = as_printed(line.subspan(1), text.substr(taken), equal, dead);
     if (rest)
@@ -81,11 +81,11 @@ std::optional<std::string> as_printed(std::span<const Piece> line, std::string_v
     return rest;
   };
   const auto& first = line.front();
-  if (first.kind == Piece::Kind::Text)
+  if (first.kind == PrintedPart::Kind::Text)
     return equal(text.substr(0, first.text.size()), first.text)
                ? with(first.text, first.text.size())
                : std::nullopt;
-  if (first.kind == Piece::Kind::Character)
+  if (first.kind == PrintedPart::Kind::Character)
     return text.empty() ? std::nullopt : with(text.substr(0, 1), 1);
   for (std::size_t end = text.starts_with('-') ? 1 : 0; end < text.size() && is_digit(text[end]);
        ++end)
@@ -94,13 +94,15 @@ std::optional<std::string> as_printed(std::span<const Piece> line, std::string_v
   return std::nullopt;
 }
 
-bool is_character(const Piece& piece) {
-  return piece.kind == Piece::Kind::Character;
+bool is_character(const PrintedPart& piece) {
+  return piece.kind == PrintedPart::Kind::Character;
 }
 
-/// A text without blanks at its ends.
+/// Removes blanks at both ends.
 Printed trimmed(Printed line) {
-  const auto is_text = [](const Piece& piece) { return piece.kind == Piece::Kind::Text; };
+  const auto is_text = [](const PrintedPart& piece) {
+    return piece.kind == PrintedPart::Kind::Text;
+  };
   if (!line.empty() && is_text(line.front()))
     line.front().text.erase(0, line.front().text.find_first_not_of(' '));
   if (!line.empty() && is_text(line.back()))
@@ -108,8 +110,8 @@ Printed trimmed(Printed line) {
   return line;
 }
 
-/// What is printed in place of an expected line that never is; nothing where it may be printed, or
-/// nothing is like it.
+/// Returns what the program prints in place of an expected line that it never prints. Nothing if it
+/// may print the line, or prints nothing like it.
 std::optional<std::string> printed_like(std::string_view text, const std::vector<Printed>& lines) {
   const auto is_printed = [&](const Printed& line) {
     DeadEnds dead;
@@ -125,9 +127,10 @@ std::optional<std::string> printed_like(std::string_view text, const std::vector
     auto found = as_printed(std::span(bare), trim(text), equal_words, dead);
     if (!found || found->empty())
       continue;
-    const auto blanks = [](const Piece& piece, std::size_t most) {
-      return piece.kind == Piece::Kind::Text ? std::string(std::min(piece.text.size(), most), ' ')
-                                             : std::string();
+    const auto blanks = [](const PrintedPart& piece, std::size_t most) {
+      return piece.kind == PrintedPart::Kind::Text
+                 ? std::string(std::min(piece.text.size(), most), ' ')
+                 : std::string();
     };
     const auto before = line.front().text.find_first_not_of(' ');
     const auto after = line.back().text.find_last_not_of(' ');
@@ -137,14 +140,14 @@ std::optional<std::string> printed_like(std::string_view text, const std::vector
   return std::nullopt;
 }
 
-/// The same for a part of a line. It has no digits: these may be those of any number.
+/// The same for a part of a line. The part has no digits, as digits could come from any number.
 std::optional<std::string> printed_like_part(std::string_view text,
                                              const std::vector<Printed>& lines) {
   const auto part = trim(text);
   std::optional<std::string> like;
   for (const auto& line : lines)
     for (const auto& piece : line) {
-      if (piece.kind == Piece::Kind::Character || piece.text.find(text) != std::string::npos)
+      if (piece.kind == PrintedPart::Kind::Character || piece.text.find(text) != std::string::npos)
         return std::nullopt;
       const auto found = std::search(piece.text.begin(), piece.text.end(), part.begin(), part.end(),
                                      [](char a, char b) { return to_lower(a) == to_lower(b); });
@@ -154,10 +157,10 @@ std::optional<std::string> printed_like_part(std::string_view text,
   return part.empty() || std::any_of(text.begin(), text.end(), is_digit) ? std::nullopt : like;
 }
 
-// ---- where the ball drives
+// ---- driving
 
-/// The headings along which a program rolls, ascending; nothing where they are not all numbers, or
-/// where the ball may move in another way.
+/// The headings along which a program rolls, ascending. Nothing if they are not all numbers, or if
+/// the ball may move in another way.
 std::optional<std::vector<int>> headings_of(const basic::Program& program) {
   std::set<int> headings;
   const auto number = [&](const basic::Item& item) -> std::optional<std::int32_t> {
@@ -173,7 +176,7 @@ std::optional<std::vector<int>> headings_of(const basic::Program& program) {
       continue;
     const auto items = program.items_of(statement);
     if (number(items[1]) == 0)
-      continue; // it brakes
+      continue; // brakes
     const auto heading = number(items[0]);
     if (!heading || *heading < 0 || *heading >= spec::ball::full_circle)
       return std::nullopt;
@@ -183,13 +186,13 @@ std::optional<std::vector<int>> headings_of(const basic::Program& program) {
                           : std::optional(std::vector<int>(headings.begin(), headings.end()));
 }
 
-/// What lies between the headings of a program: whoever changes between them comes to any place
-/// there.
+/// The sector between the headings of a program. A program that switches between them can reach any
+/// place in it.
 class Sector {
 public:
-  /// Nothing where the headings lie so far apart that a turn may lead anywhere.
+  /// Returns nothing if the headings are so far apart that a turn may lead anywhere.
   static std::optional<Sector> of(const std::vector<int>& headings) {
-    constexpr int narrow = 135; // degrees; on the way to a heading that is opposite, a ball curves
+    constexpr int narrow = 135; // degrees; a ball turning to an opposite heading drives a curve
     for (std::size_t i = 0; i < headings.size(); ++i) {
       const auto last = headings[(i + headings.size() - 1) % headings.size()];
       const auto wide = (last - headings[i] + spec::ball::full_circle) % spec::ball::full_circle;
@@ -199,7 +202,7 @@ public:
     return std::nullopt;
   }
 
-  /// How many degrees the direction of a place is off.
+  /// Degrees between a place's direction and the sector.
   double off(double x, double y) const {
     const double circle = spec::ball::full_circle;
     const auto half = std::numbers::pi;
@@ -238,8 +241,8 @@ public:
         }
   }
 
-  /// Where one place lies elsewhere whichever coordinate comes first, the program is not finished:
-  /// nothing is said then.
+  /// If one place is out of reach with its coordinates in either order, the program is unfinished:
+  /// stays silent then.
   void check_places(const basic::Program& program) {
     const auto headings = headings_of(program);
     const auto sector = headings ? Sector::of(*headings) : std::nullopt;
@@ -264,7 +267,7 @@ public:
   }
 
 private:
-  /// What the test's stimuli do to the way of a ball.
+  /// True if a stimulus of the test can move the ball.
   static bool may_move(const vm::TimedStimulus& event) {
     using namespace vm::stimulus;
     return !std::holds_alternative<Number>(event.stimulus) &&
@@ -280,7 +283,7 @@ private:
           '"' + text + '"', '"' + *printed + '"', texts::WriteOrPrint);
   }
 
-  /// The lines below `expect prints`.
+  /// Checks the lines below `expect prints`.
   void check_listed(const Expectation& one, const std::vector<Printed>& lines) {
     auto line = one.line;
     for (const auto& text : one.texts) {
@@ -296,7 +299,7 @@ private:
 
   static constexpr double quarter = spec::ball::full_circle / 4.0;
 
-  /// How far a place is from where the program can drive, in cm.
+  /// Distance in cm from a place to the nearest one that the program can reach.
   static double apart(double x, double y, const Sector& sector) {
     const auto angle = sector.off(x, y);
     const auto away = std::hypot(x, y);
@@ -305,7 +308,7 @@ private:
 
   static bool is_off(const Expectation& one, const Sector& sector) {
     constexpr double least = 30; // degrees
-    constexpr double curve = 40; // cm that a ball may be off its way: where it turns to its heading
+    constexpr double curve = 40; // cm a ball may drift while it turns to its heading
     if (one.word == Word::Near && !one.other_ball)
       return sector.off(one.x, one.y) >= least && apart(one.x, one.y, sector) >= one.by + curve;
     if (one.word != Word::Beyond)
@@ -321,7 +324,7 @@ private:
     return sector.off(y, x) == 0;
   }
 
-  /// Where the side of `beyond` lies: one of the two is 0.
+  /// The direction of `beyond`: one of the two is 0.
   static std::pair<int, int> ahead(const Expectation& beyond) {
     switch (beyond.side) {
     case Side::AboveX: return {1, 0};
@@ -357,7 +360,7 @@ private:
           words, others, texts::WriteOrTurn);
   }
 
-  /// Adds a finding that offers its line with other words in place of some.
+  /// Adds a finding that offers the line with some of its words replaced.
   void offer(Diagnostic d, const std::string& words, const std::string& others,
              const Row<Hole::Code>& help) {
     auto written = std::string(source_.text(d.span));

@@ -10,15 +10,15 @@
 namespace orb::testing {
 namespace {
 
-// With more of them the command is longer than what it repeats.
+// More would make the command longer than the test it repeats.
 constexpr std::size_t most_stimuli = 6;
 
-/// A file's name as a shell and a command line take it: never as an option.
+/// Spells a file name so that neither a shell nor a command line takes it for an option.
 std::string path_word(std::string_view path) {
   return shell_word(path.starts_with('-') ? "./" + std::string(path) : std::string(path));
 }
 
-/// An option whose value may begin with a dash.
+/// Spells an option whose value may begin with a dash.
 std::string option(std::string_view name, std::string_view value) {
   return fmt::format(" {}{}{}", name, value.starts_with('-') ? "=" : " ", shell_word(value));
 }
@@ -38,6 +38,30 @@ std::string line_of_source(const run::Input& input, const std::string& file, std
     if (other->name() == file)
       return std::string(other->line(line));
   return {};
+}
+
+/// The course, the stimuli and the page, as options.
+std::string world_options(const SuiteFile& file, const Test& test, const Prepared& program) {
+  std::string options;
+  if (file.file.course)
+    options += " --course " +
+               path_word(structured::resolve_path(file.source->name(), file.file.course->text));
+  for (const auto& line : test.stimulus_lines)
+    options += " --stimulus " + shell_word(line);
+  return options +
+         fmt::format(" --report {}", path_word(fmt::format("{}.html", stem(program.name))));
+}
+
+/// Seldom called: the playground loads it later.
+[[gnu::noinline]] std::string javascript_command(const SuiteFile& file, const Test& test,
+                                                 const Prepared& program, std::uint64_t seed) {
+  std::string command = "npx orb-robot run " + path_word(program.name);
+  if (test.bound != default_bound)
+    command +=
+        fmt::format(" --limit {}", std::chrono::ceil<std::chrono::seconds>(test.bound).count());
+  if (seed != 1)
+    command += fmt::format(" --seed {}", seed);
+  return command + world_options(file, test, program);
 }
 
 } // namespace
@@ -71,6 +95,8 @@ std::string replay_command(const Suite& suite, const Group& group, std::uint64_t
   const auto& file = suite.files[group.file];
   const auto& test = suite.test_of(group);
   const auto& program = suite.programs[group.program];
+  if (program.is_javascript())
+    return javascript_command(file, test, program, seed);
   const auto ball = suite.ball ? option("--ball", suite.ball->name) : std::string();
   if (rolls_out || test.stimulus_lines.size() > most_stimuli) {
     auto command = fmt::format("orb test {}{} --seeds {}..{}", path_word(file.source->name()),
@@ -95,13 +121,7 @@ std::string replay_command(const Suite& suite, const Group& group, std::uint64_t
     command += " --area flash";
   if (file.file.firmware != spec::default_firmware)
     command += fmt::format(" --firmware {}", spec::info(file.file.firmware).name);
-  if (file.file.course)
-    command += " --course " +
-               path_word(structured::resolve_path(file.source->name(), file.file.course->text));
-  for (const auto& line : test.stimulus_lines)
-    command += " --stimulus " + shell_word(line);
-  return command +
-         fmt::format(" --report {}", path_word(fmt::format("{}.html", stem(program.name))));
+  return command + world_options(file, test, program);
 }
 
 } // namespace orb::testing

@@ -7,12 +7,12 @@
 
 namespace orb::testing {
 
-/// Where a line or a macro command stands, and what: `corner.bas:4: 40 goroll 90,100,1`; empty
-/// where nothing ran.
+/// The line or macro command that ran, with its text: `corner.bas:4: 40 goroll 90,100,1`. Empty if
+/// nothing ran.
 std::string place_of(const Prepared& program, const Running& running);
 
-/// The command that shows a case again: `orb run …`, or `orb test …` where the ball still rolled
-/// after the end of the program (`rolls_out`), which `orb run` does not wait for.
+/// The command that shows a case again: `orb run …`. It is `orb test …` if the ball still rolled
+/// after the end of the program (`rolls_out`): `orb run` does not wait for that.
 std::string replay_command(const Suite& suite, const Group& group, std::uint64_t seed,
                            bool rolls_out);
 

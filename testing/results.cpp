@@ -1,6 +1,7 @@
 #include "testing/results.h"
 
 #include <algorithm>
+#include <fmt/format.h>
 
 namespace orb::testing {
 
@@ -35,10 +36,25 @@ Verdict GroupResult::verdict() const {
   return worst;
 }
 
+std::string story(const GroupResult& group, const CaseResult& one) {
+  if (one.omitted)
+    return fmt::format("details omitted: only the first {} failures of a test are kept\n",
+                       most_told);
+  if (one.verdict == Verdict::Error)
+    return one.problem;
+  std::string out;
+  for (const auto& miss : one.misses) {
+    out +=
+        fmt::format("{}:{}: {}: {}", group.file, miss.line, miss.expected, in_english(miss.seen));
+    out += miss.where.empty() ? "\n" : fmt::format(" ({})\n", miss.where);
+  }
+  return one.again.empty() ? out : out + fmt::format("rerun: {}\n", one.again);
+}
+
 Totals totals_of(const Results& results) {
   Totals totals;
   for (const auto& group : results.groups) {
-    if (group.cases.empty()) // all of them run elsewhere
+    if (group.cases.empty()) // all of them ran on other machines
       continue;
     const bool passed = group.verdict() == Verdict::Passed;
     totals.cases += group.cases.size();

@@ -10,19 +10,20 @@
 namespace orb::testing {
 namespace {
 
-// A line that a program prints is taken up to here; the robot's own are a few dozen characters.
+// bytes; longer printed lines are cut. The robot's own are a few dozen characters long.
 constexpr std::size_t longest_line = 4096;
 
-/// Hears a run, and tells its judges.
+/// Listens to a run and informs its judges. Large because every kind of event updates one sighting,
+/// which all judges share.
 class Court final : public run::Listener {
 public:
-  /// How far a run goes.
+  /// How long a run goes on.
   enum class Goes : std::uint8_t { UntilKnown, ToTheEnd };
 
-  /// All balls of a room, in their order.
+  /// All balls of a room, in order.
   using Balls = std::vector<const vm::Ball*>;
 
-  /// Of a room: that of its ball `own`, which sees the others, too.
+  /// In a room: judges its ball `own`, which also sees the others.
   Court(const Test& test, const Group& group, Goes goes, std::optional<std::size_t> own = {},
         Balls* all = nullptr)
       : keeps_on_(goes == Goes::ToTheEnd), own_(own), all_(all) {
@@ -38,11 +39,11 @@ public:
     }
   }
 
-  /// The places of the expectations that were missed, each with its judge.
+  /// The indices of the missed expectations, each with its judge.
   std::vector<std::pair<std::size_t, const Judge*>> missed() const {
     std::vector<std::pair<std::size_t, const Judge*>> found;
     for (std::size_t i = 0; i < judges_.size(); ++i)
-      if (judges_[i]->verdict() == Judge::Verdict::Missed)
+      if (judges_[i]->decision() == Judge::Decision::Missed)
         found.emplace_back(places_[i], judges_[i].get());
     return found;
   }
@@ -94,8 +95,8 @@ public:
       judge->on_end(at, outcome);
   }
 
-  /// Whether nothing that is still to come can change a verdict. That no error happens is certain
-  /// only at the end; a run that failed anyway does not go on for it.
+  /// True if nothing that may still happen can change a verdict. `never error` is final only at the
+  /// end, but a run that has already failed does not go on for it.
   bool enough() const override { return enough_ && !keeps_on_; }
 
 private:
@@ -151,7 +152,7 @@ private:
       look_around();
   }
 
-  /// Where all balls of the room are; one that has not begun yet is where nobody looks.
+  /// Updates the positions of all balls. A ball that has not begun yet is put where nobody looks.
   void look_around() {
     sighting_.balls.resize(all_->size());
     for (std::size_t i = 0; i < all_->size(); ++i)
@@ -159,11 +160,11 @@ private:
         sighting_.balls[i] = (*all_)[i]->body().mover().place;
   }
 
-  /// Tells what was seen until `t`.
+  /// Passes on what was seen until `t`.
   void move_on(Duration t) {
     if (!uncertain_states_)
       return;
-    // A ball that fell asleep is asleep from the event on; when it wakes is seen later.
+    // A ball is asleep from this event on; a later sighting shows when it wakes.
     const Moment from{since_, running_};
     bool open = false;
     for (const auto& judge : judges_) {
@@ -182,7 +183,7 @@ private:
       sighting_.asleep = ball_->asleep();
   }
 
-  /// What runs now. While a line waits, as in `delay`, it stays the same.
+  /// What runs now; unchanged while a line waits, as in `delay`.
   Running running() {
     if (!ball_->basic_running())
       return macro_ && ball_->macros().running() ? Running{0, macro_->id, macro_->command}
@@ -206,7 +207,7 @@ private:
     bool missed = false;
     bool open = false;
     for (const auto& judge : judges_) {
-      missed = missed || judge->verdict() == Judge::Verdict::Missed;
+      missed = missed || judge->decision() == Judge::Decision::Missed;
       open = open || (!judge->certain() && judge.get() != silent_);
     }
     enough_ = !open && (missed || silent_ == nullptr || silent_->certain());
@@ -216,12 +217,12 @@ private:
   const Judge* silent_ = nullptr;
   const vm::Ball* ball_ = nullptr;
   bool keeps_on_;
-  std::optional<std::size_t> own_; ///< which ball of the room
+  std::optional<std::size_t> own_; ///< index of the ball in the room
   Balls* all_;
-  std::vector<std::size_t> places_; ///< of the judges' expectations
+  std::vector<std::size_t> places_; ///< indices of the judges' expectations
   bool enough_ = false;
   bool uncertain_states_ = true;
-  bool started_ = false; ///< something has run
+  bool started_ = false; ///< true once something has run
   Sighting sighting_;
   Duration since_{};
   Running running_;
@@ -232,7 +233,7 @@ private:
   std::string line_;
 };
 
-/// The text of an expectation as it is written.
+/// The text of an expectation as written.
 std::string expected(const SuiteFile& file, const Expectation& one) {
   return one.line == 0 ? "never error" : std::string(file.source->text(one.span));
 }
@@ -272,38 +273,44 @@ namespace {
 using Run = std::function<tl::expected<run::Ending, Failure>(const run::Options& options,
                                                              run::Listener& listener)>;
 
-/// Judges the run that `run` makes.
-CaseResult judge_case(const Suite& suite, const Group& group, const run::Options& options,
-                      Court::Goes goes, const Run& run) {
-  const auto& test = suite.test_of(group);
-  const auto& program = suite.programs[group.program];
+/// The result of a case whose judges have heard the end.
+CaseResult result_of(const Suite& suite, const Group& group, const Court& court,
+                     const run::Options& options, const run::Ending& ending) {
   CaseResult result;
   result.seed = options.seed;
-  const auto fail = [&](std::string problem) {
-    result.verdict = Verdict::Error;
-    result.problem = std::move(problem);
-    return result;
-  };
-  if (!program.problem.empty())
-    return fail(program.problem);
-  Court court(test, group, goes);
-  const auto ending = run(options, court);
-  if (!ending)
-    return fail(ending.error().message + "\n");
-  result.lasted = ending->lasted;
-  result.lines = ending->lines;
+  result.lasted = ending.lasted;
+  result.lines = ending.lines;
   for (const auto& [place, judge] : court.missed())
-    result.misses.push_back(miss_of(suite, group, test.expectations[place], *judge, group.program));
+    result.misses.push_back(
+        miss_of(suite, group, suite.test_of(group).expectations[place], *judge, group.program));
   if (!result.misses.empty()) {
     result.verdict = Verdict::Failed;
-    constexpr Duration little = 250ms; // that it rolls on, nobody sees
+    constexpr Duration little = 250ms; // rolling on for less than this is not visible
     result.again =
-        replay_command(suite, group, options.seed, ending->seen_to - ending->lasted > little);
+        replay_command(suite, group, options.seed, ending.seen_to - ending.lasted > little);
   }
   return result;
 }
 
-/// What the balls of a room run.
+/// Judges the run that `run` starts.
+CaseResult judge_case(const Suite& suite, const Group& group, const run::Options& options,
+                      Court::Goes goes, const Run& run) {
+  const auto fail = [&](std::string problem) {
+    CaseResult result;
+    result.seed = options.seed;
+    result.verdict = Verdict::Error;
+    result.problem = std::move(problem);
+    return result;
+  };
+  if (const auto& obstacle = suite.programs[group.program].obstacle(); !obstacle.empty())
+    return fail(obstacle);
+  Court court(suite.test_of(group), group, goes);
+  const auto ending = run(options, court);
+  return ending ? result_of(suite, group, court, options, *ending)
+                : fail(ending.error().message + "\n");
+}
+
+/// The balls of a room with their programs.
 std::vector<run::RoomBall> room_of(const Suite& suite, const Group& group,
                                    const run::Options& options) {
   std::vector<run::RoomBall> balls;
@@ -319,7 +326,7 @@ std::vector<run::RoomBall> room_of(const Suite& suite, const Group& group,
   return balls;
 }
 
-/// Runs a room and says how long that took, or why it cannot be run.
+/// Runs a room and adds its duration, or why it cannot be run.
 void run_and_add(std::span<const run::RoomBall> balls, CaseResult& result) {
   const auto endings = run::run_room(balls);
   if (!endings) {
@@ -332,7 +339,7 @@ void run_and_add(std::span<const run::RoomBall> balls, CaseResult& result) {
   }
 }
 
-/// Where the journeys of the balls are gathered: by their names, as pictures have them.
+/// Collects the journeys of the balls, ordered by name as pictures show them.
 void film(std::vector<run::RoomBall>& balls, Footage& footage) {
   std::vector<run::RoomBall*> by_name;
   for (auto& ball : balls)
@@ -343,14 +350,14 @@ void film(std::vector<run::RoomBall>& balls, Footage& footage) {
     ball->journey = &footage.emplace_back(SeenBall{ball->name, {}}).journey;
 }
 
-/// Judges all balls of a room.
+/// Runs the balls of a room together and judges each by the expectations about it.
 CaseResult judge_room(const Suite& suite, const Group& group, const run::Options& options,
                       Court::Goes goes, Footage* footage) {
   const auto& test = suite.test_of(group);
   CaseResult result;
   result.seed = options.seed;
   for (const auto program : group.room)
-    result.problem += suite.programs[program].problem;
+    result.problem += suite.programs[program].obstacle();
   auto balls = room_of(suite, group, options);
   Court::Balls all(balls.size());
   std::deque<Court> courts;
@@ -403,9 +410,34 @@ CaseResult play_case(const Suite& suite, const Group& group, std::uint64_t seed,
                            [&](const run::Options& given, run::Listener& listener) {
                              return play(suite, group, given, listener, footage->front().journey);
                            });
-  result.again.clear(); // the virtual ball would do something else
+  result.again.clear(); // the virtual ball would behave differently
   result.footage = std::move(footage);
   return result;
+}
+
+struct Trial::State {
+  const Suite& suite;
+  const Group& group;
+  run::Options options;
+  Court court;
+};
+
+Trial::Trial(const Suite& suite, const Group& group, std::uint64_t seed)
+    : state_(new State{suite, group, options_of(suite, group, seed),
+                       Court(suite.test_of(group), group, Court::Goes::ToTheEnd)}) {}
+
+Trial::~Trial() = default;
+
+const run::Options& Trial::options() const {
+  return state_->options;
+}
+
+run::Listener& Trial::listener() {
+  return state_->court;
+}
+
+CaseResult Trial::judge(const run::Ending& ending) const {
+  return result_of(state_->suite, state_->group, state_->court, state_->options, ending);
 }
 
 } // namespace orb::testing

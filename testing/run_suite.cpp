@@ -11,16 +11,16 @@
 namespace orb::testing {
 namespace {
 
-/// A case and the place for its result.
+/// A case and where its result goes.
 struct Task {
   const Group* group;
   CaseResult* result;
 };
 
-/// Keeps the first failures of each group whole, whichever are known first.
+/// Keeps the details of each group's first failures, in whatever order cases finish.
 class FirstFailures {
 public:
-  /// A task is done; `number` counts over all.
+  /// Records that a task is done; `number` counts over all tasks.
   void add(const std::vector<Task>& tasks, std::size_t number) {
     const auto& task = tasks[number];
     if (task.result->verdict == Verdict::Passed)
@@ -40,7 +40,7 @@ private:
   std::map<const Group*, std::set<std::size_t>> of_group_;
 };
 
-/// The groups as they will be told, with an empty result for each case that runs here.
+/// The groups in report order, with an empty result for each case that runs here.
 std::vector<GroupResult> empty_results(const Suite& suite, const Shard& shard) {
   std::vector<GroupResult> groups;
   for (const auto& group : suite.groups) {
@@ -81,21 +81,21 @@ Results run_suite(const Suite& suite, const RunOptions& options, Progress& progr
   FirstFailures failures;
   std::atomic<std::size_t> next{0};
   std::atomic<std::size_t> done{0};
-  // Runs the next task; false where none is left.
+  // Runs the next task; false if none is left.
   const auto run_one = [&] {
     const auto index = next.fetch_add(1);
     if (index >= tasks.size())
       return false;
     const auto& task = tasks[index];
     const auto seed = task.result->seed;
-    *task.result = options.play ? play_case(suite, *task.group, seed, options.play)
-                                : run_case(suite, *task.group, seed, &native, nullptr);
+    *task.result = options.judge ? options.judge(suite, *task.group, seed)
+                                 : run_case(suite, *task.group, seed, &native, nullptr);
     failures.add(tasks, index);
     done.fetch_add(1);
     return true;
   };
   std::vector<std::thread> others;
-  const auto wanted = std::min<std::size_t>(options.play ? 1 : options.jobs, tasks.size());
+  const auto wanted = std::min<std::size_t>(options.judge ? 1 : options.jobs, tasks.size());
   try {
     for (std::size_t i = 1; i < wanted; ++i)
       others.emplace_back([&] {
@@ -103,7 +103,7 @@ Results run_suite(const Suite& suite, const RunOptions& options, Progress& progr
         }
       });
   } catch (const std::system_error&) {
-    // The system gives no more threads; those that are there do the work.
+    // The system refuses more threads: the ones already running do the work.
   }
   while (run_one())
     progress.on_cases(done, tasks.size());

@@ -27,7 +27,7 @@ std::string plain(double value, int decimals) {
 
 namespace {
 
-/// A number with one decimal, or as many as show that it is greater than `bound`.
+/// A number with one decimal, or with as many as show that it exceeds `bound`.
 std::string above(double value, double bound) {
   for (int decimals = 1; decimals < 6; ++decimals) {
     auto text = decimal(value, decimals);
@@ -57,19 +57,19 @@ double outside(double value, double least, double most) {
   return std::max({least - value, value - most, 0.0});
 }
 
-/// The angle between two headings.
+/// The angle between two headings, in degrees.
 double turn(double from, double to) {
   const double way = std::abs(std::fmod(from - to, double{spec::ball::full_circle}));
   return std::min(way, spec::ball::full_circle - way);
 }
 
-/// How far the ball is from the place, or from the other ball.
+/// Distance of the ball from the place, or from the other ball.
 double apart(const Expectation& one, const Sighting& s) {
   const auto place = one.other_ball ? s.balls[*one.other_ball] : vm::Point{one.x, one.y};
   return std::hypot(s.x - place.x, s.y - place.y);
 }
 
-/// How far a sighting is from what is expected of it; 0 where it is met.
+/// Distance between a sighting and one expectation; 0 if met.
 double off_alone(const Expectation& one, const Meaning& meaning, const Sighting& s) {
   switch (one.word) {
   case Word::Near: return std::max(0.0, apart(one, s) - one.by);
@@ -109,7 +109,7 @@ double off_alone(const Expectation& one, const Meaning& meaning, const Sighting&
   return 0;
 }
 
-/// A sighting in the words of what is expected of it.
+/// Describes a sighting in the terms of one expectation.
 Message describe_alone(const Expectation& one, const Meaning& meaning, const Sighting& s) {
   switch (one.word) {
   case Word::Near:
@@ -153,7 +153,7 @@ bool is_state(const Expectation& one) {
   return info(one.word).kind == Kind::State || info(one.word).kind == Kind::Stay;
 }
 
-/// Between 0 and 1, so that centimetres and shades of colour can be added.
+/// Maps to 0…1, so that centimetres and shades of colour can be added.
 double share(double off) {
   return off == infinite ? 1 : off / (1 + off);
 }

@@ -6,27 +6,27 @@
 #include <string>
 #include <string_view>
 
-// What states make of a sighting: how far it is from what is expected, and in which words.
+// How far a sighting is from an expectation, and how to describe it.
 
 namespace orb::testing {
 
-/// How far off is what cannot be met any more.
+/// The distance of an expectation that can no longer be met.
 inline constexpr double infinite = std::numeric_limits<double>::infinity();
 
-/// How far a sighting is from what is expected of it and of all that is joined; 0 where it is met.
-/// Of what happens only the joined states count.
+/// Distance between a sighting and an expectation with all its joined parts; 0 if met. For an
+/// event, only the joined states count.
 double off(const Expectation& one, const Meaning& meaning, const Sighting& s);
 
-/// The sighting in the words of the same.
+/// Describes a sighting in the terms of the same parts.
 Message describe(const Expectation& one, const Meaning& meaning, const Sighting& s);
 
-/// A printed line as it can be shown, cut where it is long.
+/// A printed line ready for display, cut if long.
 std::string shown_line(std::string_view line);
 
-/// A number with that many decimals.
+/// A number with this many decimals.
 std::string decimal(double value, int decimals);
 
-/// A number without zeros at its end.
+/// A number without trailing zeros.
 std::string plain(double value, int decimals);
 
 } // namespace orb::testing

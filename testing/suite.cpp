@@ -5,6 +5,7 @@
 #include "base/text/text.h"
 #include "compiler/text/image.h"
 #include "report/rules.h"
+#include "testing/check_javascript.h"
 #include "testing/check_room.h"
 #include "testing/lookup.h"
 #include "testing/meant.h"
@@ -22,12 +23,12 @@
 namespace orb::testing {
 namespace {
 
-constexpr std::array<std::string_view, 3> endings{".orb", ".bas", ".macro"};
+constexpr std::array<std::string_view, 4> endings{".orb", ".bas", ".macro", ".js"};
 
-/// A program that somebody handed in as plain text.
+/// The file extension of programs handed in as plain text.
 constexpr std::string_view plain_ending = ".txt";
 
-/// What keeps a source from becoming a program at all, as text.
+/// The errors that keep a source from compiling, as text.
 std::string errors_of(const Source& source, const std::vector<Diagnostic>& findings,
                       const Say& say) {
   std::string text;
@@ -37,14 +38,14 @@ std::string errors_of(const Source& source, const std::vector<Diagnostic>& findi
   return text;
 }
 
-/// Why an input cannot be run; empty where it can.
+/// Why an input cannot be run; empty if it can.
 std::string problem_of(const run::Input& input, const Say& say) {
   std::string text;
   for (const auto& file : input.errors)
     text += errors_of(*file.source, file.diagnostics, say);
   if (!text.empty() || !input.program || input.program->compiled)
     return text;
-  // The robot finds a line that it cannot read when it gets there; a test does not wait for that.
+  // The robot reports a line that it cannot read only when it runs it; a test reports it at once.
   const auto& parsed = input.program->parsed;
   const auto line_of = [&](Span span) { return input.source->position(span.begin).line; };
   std::set<std::uint32_t> unread;
@@ -58,7 +59,7 @@ std::string problem_of(const run::Input& input, const Say& say) {
   return text;
 }
 
-/// Asks for each file once: some, such as a pipe, can be read only once.
+/// Reads each file once: a pipe, for instance, cannot be read twice.
 class EachOnce final : public structured::Files {
 public:
   explicit EachOnce(structured::Files& files) : files_(files) {}
@@ -78,18 +79,19 @@ private:
   std::map<std::string, std::optional<std::string>> texts_;
 };
 
-class Reader {
+class SuiteReader {
 public:
-  Reader(Suite& suite, structured::Files& files, const SuiteOptions& options)
+  SuiteReader(Suite& suite, structured::Files& files, const SuiteOptions& options)
       : suite_(suite), files_(files), options_(options) {}
 
-  /// The index of a program with the files of `file`; an unreadable one is a problem of its own.
+  /// Returns the index of a program compiled with the files of `file`; an unreadable one is a
+  /// problem of its own.
   std::size_t program(const std::string& path, const SuiteFile& file) {
     return program(path, file, {});
   }
 
-  /// The program that a test runs: the same, or, where the test wants to know what variables of a
-  /// structured program hold, one that keeps them.
+  /// Returns the program that a test runs: the given one, or, if the test looks at variables of a
+  /// structured program, a build that keeps them.
   std::size_t program_of(const Test& test, std::size_t program, const SuiteFile& file) {
     std::vector<std::string> names;
     for (const auto& one : test.expectations)
@@ -160,6 +162,10 @@ private:
       made.problem += "\n";
       return;
     }
+    if (path == made.name && is_javascript(path)) {
+      made.elsewhere = where_tested(path, options_.say);
+      return;
+    }
     const auto language =
         has_ending(path, plain_ending) ? run::language_of_text(*text) : std::string_view();
     made.language += path == made.name ? language : "";
@@ -195,8 +201,8 @@ std::string capitals(std::string_view ending) {
   return made;
 }
 
-/// For a line `WORD NAME` whose file cannot be read: one with an ending, or with the slashes of all
-/// systems, may have been meant.
+/// Reports a line `WORD NAME` whose file cannot be read. Suggests the name with an extension, or
+/// with slashes as other systems write them.
 Diagnostic cannot_read(std::string_view word, const Named& given, const std::string& path,
                        std::span<const std::string_view> possible, structured::Files& files) {
   auto d = finding(rules::File, given.span, texts::CannotRead(path), texts::FromFolderOfTest());
@@ -217,14 +223,14 @@ Diagnostic cannot_read(std::string_view word, const Named& given, const std::str
   return d;
 }
 
-/// Where the program of a test file is; nothing, and a finding, where there is none.
+/// Returns the path of the test file's program; nothing, and a finding, if there is none.
 std::optional<std::string> program_path(SuiteFile& file, structured::Files& files) {
   const auto& name = file.source->name();
   auto& findings = file.file.diagnostics;
   const auto& balls = file.file.balls;
   if (const auto& given = balls.empty() ? file.file.program : std::optional(balls[0].program)) {
     if (given->text.empty())
-      return std::nullopt; // what is wrong with the line has been said
+      return std::nullopt; // the line's error is already reported
     auto path = structured::resolve_path(name, given->text);
     if (files.read(path))
       return path;
@@ -239,11 +245,11 @@ std::optional<std::string> program_path(SuiteFile& file, structured::Files& file
                              texts::NoProgram(beside(name, endings[0]), beside(name, endings[1]),
                                               beside(name, endings[2])),
                              texts::NameAProgram()));
-  findings.back().severity = Severity::Error; // to run it; check() lowers that
+  findings.back().severity = Severity::Error; // an error when run; check() lowers it
   return std::nullopt;
 }
 
-/// Says so where a test does not run the very program that is flashed.
+/// Reports a test that runs a program other than the one that is flashed.
 void tell_of_kept(SuiteFile& file, const Test& test, const Prepared& program) {
   const auto first = std::find_if(test.expectations.begin(), test.expectations.end(),
                                   [](const auto& one) { return one.word == Word::Variable; });
@@ -254,8 +260,8 @@ void tell_of_kept(SuiteFile& file, const Test& test, const Prepared& program) {
               texts::RunsKept(program.name, program.tested_bytes, program.packed_bytes)));
 }
 
-/// Tells what is wrong with the names of a file, taken in the program that it names itself.
-void check_names(SuiteFile& file, const Suite& suite, Reader& reader,
+/// Reports unknown names in a file, looked up in the program that it names itself.
+void check_names(SuiteFile& file, const Suite& suite, SuiteReader& reader,
                  std::optional<std::size_t> named) {
   static const Prepared none;
   for (const auto& test : file.file.tests) {
@@ -266,15 +272,16 @@ void check_names(SuiteFile& file, const Suite& suite, Reader& reader,
     for (const auto& whole : test.expectations)
       for (const auto* one : parts_of(whole)) {
         if (whole.ball && *whole.ball > 0 && one->word == Word::Variable)
-          continue; // of another ball's program: told by its verdict
+          continue; // belongs to another ball's program, and its verdict reports it
         const bool of_course = one->word == Word::Inside || one->word == Word::Stay;
-        if (of_course ? file.file.course && !file.course // told of the course already
+        if (of_course ? file.file.course && !file.course // the course's finding already says so
                       : own == nullptr || !own->problem.empty())
           continue;
         const auto found = look_up_alone(*one, file, own == nullptr ? none : *own);
         if (found.rule != nullptr)
           file.file.diagnostics.push_back(
-              finding(*found.rule, one->name.span, found.meaning.problem, found.help));
+              finding(*found.rule, one->name.text.empty() ? whole.span : one->name.span,
+                      found.meaning.problem, found.help));
       }
   }
   sort_by_place(file.file.diagnostics);
@@ -287,7 +294,7 @@ void check_files(SuiteFile& file, structured::Files& files) {
       file.file.diagnostics.push_back(cannot_read("with", with, path, endings, files));
 }
 
-/// Reads the course that a file names.
+/// Reads the course named in a file.
 void read_course(SuiteFile& file, structured::Files& files) {
   const auto& given = file.file.course;
   if (!given || given->text.empty())
@@ -318,8 +325,8 @@ void read_course(SuiteFile& file, structured::Files& files) {
               texts::CheckListsAll(path)));
 }
 
-/// Adds the groups of one file, for the given programs or its own.
-void add_groups(Suite& suite, Reader& reader, std::size_t index, const SuiteOptions& options,
+/// Adds the groups of one file, for the given programs or for its own.
+void add_groups(Suite& suite, SuiteReader& reader, std::size_t index, const SuiteOptions& options,
                 const std::vector<std::size_t>& programs) {
   const auto& file = suite.files[index];
   for (std::size_t t = 0; t < file.file.tests.size(); ++t) {
@@ -344,7 +351,7 @@ void add_groups(Suite& suite, Reader& reader, std::size_t index, const SuiteOpti
   }
 }
 
-/// That no test has the name that was asked for.
+/// No test has the requested name.
 Failure no_such_test(const Suite& suite, const std::string& name) {
   std::vector<std::string_view> known;
   for (const auto& file : suite.files)
@@ -382,7 +389,7 @@ tl::expected<Suite, Failure> make_suite(std::vector<GivenFile> given, const Suit
   for (const auto& path : options.programs)
     if (known.insert(files.identity(path)).second)
       wanted.push_back(path);
-  Reader reader(suite, files, options);
+  SuiteReader reader(suite, files, options);
   std::vector<std::vector<std::size_t>> programs;
   for (auto& one : given) {
     SuiteFile file;
@@ -404,6 +411,8 @@ tl::expected<Suite, Failure> make_suite(std::vector<GivenFile> given, const Suit
       own.push_back(reader.program(path, file));
     }
     const bool named = options.programs.empty() && !own.empty();
+    if (named && suite.programs[own.front()].is_javascript())
+      check_javascript(file, suite.programs[own.front()].name);
     check_names(file, suite, reader, named ? std::optional(own.front()) : std::nullopt);
     suite.files.push_back(std::move(file));
   }
@@ -416,6 +425,10 @@ tl::expected<Suite, Failure> make_suite(std::vector<GivenFile> given, const Suit
 
 bool is_test(std::string_view file_name) {
   return has_ending(file_name, file_ending);
+}
+
+bool is_javascript(std::string_view file_name) {
+  return has_ending(file_name, endings.back());
 }
 
 bool is_no_program(std::string_view file_name) {

@@ -2,7 +2,7 @@
 
 #include "base/texts.h"
 
-/// What `orb test` says: `texts::NotText(file)`.
+/// Texts of `orb test`: `texts::NotText(file)`.
 namespace orb::testing::texts {
 
 using namespace orb::texts;

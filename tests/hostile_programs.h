@@ -9,14 +9,14 @@
 
 namespace orb::testing {
 
-/// A program that was written to be hard on whatever makes machine code of it.
+/// A program designed to be expensive to compile to machine code.
 struct HostileProgram {
   std::string_view what;
   std::string text;
 };
 
-/// Lines that all look the same, as many as fit into `size` bytes; {0} is the line's number, {1}
-/// another line, far away, {2} some constant.
+/// Returns as many lines of one form as fit into `size` bytes; {0} is the line's number, {1} the
+/// number of a distant line, {2} some constant.
 inline std::string filled_with(std::string_view line, std::size_t size) {
   std::string text;
   for (std::size_t number = 1;; ++number) {
@@ -29,7 +29,7 @@ inline std::string filled_with(std::string_view line, std::size_t size) {
   }
 }
 
-/// Each is as long as a program may be.
+/// Each has the maximal length of a program.
 inline auto hostile_programs(std::size_t size) {
   std::string sum = "1 A=B";
   while (sum.size() + 8 < size)

@@ -9,8 +9,8 @@
 
 namespace orb::testing {
 
-/// Writes orbBasic programs at random, the same for the same seed: every statement, odd spellings,
-/// jumps that mostly lead somewhere, values that are often at the edge of what is allowed.
+/// Writes random orbBasic programs, the same for the same seed: every statement, odd spellings,
+/// mostly valid jumps, values often at the limits of their ranges.
 class RandomProgram {
 public:
   struct Style {
@@ -50,14 +50,14 @@ private:
     return std::to_string(number(upto(style_.lines)));
   }
 
-  /// `usual` blanks, or others where that is allowed; at least `least`.
+  /// Returns `usual` blanks, or another number if allowed; at least `least`.
   std::string blanks(const std::string& usual, const std::string& least = "") {
     if (!random_.chance(style_.odd_blanks))
       return usual;
     return random_.chance(0.5) ? least : usual + (random_.chance(0.2) ? "\t" : "  ");
   }
 
-  /// A word with the blanks after it that keep it apart from letters.
+  /// Returns a word with the blanks that separate it from letters.
   std::string word(const std::string& text) { return text + " " + blanks(""); }
 
   std::string comma() { return blanks("") + "," + blanks(""); }
@@ -106,7 +106,7 @@ private:
     return text;
   }
 
-  /// An expression that is mostly within 0 to 255.
+  /// Returns an expression that is mostly within 0 to 255.
   std::string small() {
     const int kind = upto(4);
     if (kind == 0)
@@ -228,7 +228,7 @@ private:
     }
   }
 
-  /// A statement with a piece lost, doubled or replaced: it may or may not parse.
+  /// Returns a statement with a piece omitted, doubled or replaced; it may still parse.
   std::string broken() {
     auto text = statement(false);
     static const std::vector<std::string> pieces = {"<=",   "(", ")",    "\"",  "rgb", ",",

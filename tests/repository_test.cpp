@@ -1,4 +1,6 @@
-// What holds for the repository as a whole, read from its files.
+// Checks rules that hold for the whole repository.
+
+#include "repository.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -18,96 +20,14 @@ namespace fs = std::filesystem;
 
 namespace {
 
-const fs::path root = ORB_ROOT;
+using namespace repository;
 
-/// Who may include whom (docs/architecture.md): the rooms that each room may name besides itself
-/// and what those may name. The rows stand in floor order: no room names one of its own floor or
-/// above.
-struct Room {
-  int floor;
-  std::string name;
-  std::set<std::string> includes;
-};
-
-const std::vector<Room> rooms = {
-    {1, "base", {}},
-    {1, "spec", {}},
-    {2, "disk", {"base"}},
-    {2, "protocol", {"spec", "base"}},
-    {2, "bytecode", {"spec", "base"}},
-    {2, "repair", {"spec", "base"}},
-    {3, "compiler", {"bytecode", "repair"}},
-    {3, "assembler", {"protocol", "repair"}},
-    {4, "structured", {"compiler", "assembler"}},
-    {4, "uploader", {"protocol"}},
-    {4, "vm", {"protocol", "bytecode"}},
-    {5, "report", {"vm"}},
-    {6, "run", {"report", "structured", "uploader"}},
-    {7, "testing", {"run"}},
-    {8, "reference", {"testing"}},
-    {8, "debug", {"testing"}},
-    {9, "editor", {"reference", "debug"}},
-    {9, "serve", {"vm", "disk"}},
-    {10,
-     "cli",
-     {"editor", "serve", "reference", "debug", "report", "uploader", "structured", "disk"}},
-    {10, "playground", {"editor"}},
-};
-
-const Room& room_called(const std::string& name) {
-  return *std::find_if(rooms.begin(), rooms.end(), [&](const Room& r) { return r.name == name; });
-}
-
-/// What a file of `room` may include: the room itself, what it names, and what comes with those.
-std::set<std::string> reach(const Room& room) {
-  std::set<std::string> names{room.name};
-  for (const auto& name : room.includes)
-    names.merge(reach(room_called(name)));
-  return names;
-}
-
-std::string read_all(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
-std::vector<fs::path> files_below(const fs::path& folder, const std::set<std::string>& endings) {
-  std::vector<fs::path> files;
-  for (const auto& entry : fs::recursive_directory_iterator(folder))
-    if (entry.is_regular_file() && endings.contains(entry.path().extension().string()))
-      files.push_back(entry.path());
-  return files;
-}
-
-TEST(Floors, ARoomStandsAboveAllThatItNames) {
-  for (const auto& room : rooms)
-    for (const auto& name : room.includes)
-      EXPECT_LT(room_called(name).floor, room.floor) << room.name << " names " << name;
-}
-
-TEST(Floors, EachRoomIncludesOnlyWhatItMay) {
-  const std::regex include(R"(^\s*#\s*include\s+"([a-z_0-9]+)/[^"]+")");
-  for (const auto& room : rooms) {
-    const auto allowed = reach(room);
-    const auto files = files_below(root / room.name, {".h", ".cpp", ".def", ".inc"});
-    EXPECT_FALSE(files.empty()) << room.name;
-    for (const auto& file : files) {
-      std::ifstream stream(file);
-      for (std::string line; std::getline(stream, line);) {
-        std::smatch match;
-        if (std::regex_search(line, match, include)) {
-          EXPECT_TRUE(allowed.contains(match[1])) << file << ": " << line;
-        }
-      }
-    }
-  }
-}
-
-/// The library of the compiler that builds the playground is older than that of all others.
-TEST(Floors, WhatThePlaygroundIsBuiltOfUsesNothingThatItsLibraryLacks) {
+/// The playground's compiler has the oldest standard library of all.
+TEST(Includes, WhatThePlaygroundIsBuiltOfUsesNothingThatItsLibraryLacks) {
   const std::regex lacking(R"(std::(ranges::\w+\(|bit_cast<))");
-  const std::set<std::string> elsewhere = {"bluez.cpp", "native", "tether"}; // left out there
-  for (const auto& name : reach(room_called("playground")))
+  const std::set<std::string> elsewhere = {"bluez.cpp", "native",
+                                           "tether"}; // not part of the playground
+  for (const auto& name : reach("playground"))
     for (const auto& file : files_below(root / name, {".h", ".cpp"}))
       if (!elsewhere.contains(file.parent_path().filename().string()) &&
           !elsewhere.contains(file.filename().string())) {
@@ -117,59 +37,7 @@ TEST(Floors, WhatThePlaygroundIsBuiltOfUsesNothingThatItsLibraryLacks) {
       }
 }
 
-/// The shelves of a room whose files lie in folders, in floor order: a file includes from its own
-/// folder and from those before it. The room's own folder is `.`; a folder in a folder is of its
-/// shelf.
-const std::vector<std::pair<std::string, std::vector<std::string>>> shelves = {
-    {"base", {"text", ".", "render"}},
-    {"assembler", {"text", ".", "lint"}},
-    {"structured",
-     {"text", "layout", "meaning", "lower", "analyse", "optimise", "emit", ".", "lift"}},
-    {"compiler", {"text", "messages", "analyse", "lint", "."}},
-    {"testing", {"text", ".", "verdicts"}},
-    {"cli",
-     {"model", "bluez", "context", "input", "terminal", "robot", "many", "ball", "run", "room",
-      "editors", "commands", "."}},
-    {"editor", {".", "languages", "lsp", "dap", "printed"}},
-};
-
-TEST(Floors, AShelfIncludesOnlyFromThoseBelowIt) {
-  const std::regex include(R"re(^\s*#\s*include\s+"([a-z_0-9/]+)/[^"/]+")re");
-  for (const auto& [room, folders] : shelves) {
-    const auto floor_of = [&, &room = room, &folders = folders](const fs::path& folder) {
-      const auto found = std::find(folders.begin(), folders.end(), folder.begin()->string());
-      EXPECT_NE(found, folders.end()) << room << " has no shelf " << folder;
-      return found - folders.begin();
-    };
-    for (const auto& file : files_below(root / room, {".h", ".cpp", ".def", ".inc"})) {
-      const auto floor = floor_of(fs::relative(file.parent_path(), root / room));
-      std::ifstream stream(file);
-      for (std::string line; std::getline(stream, line);) {
-        std::smatch match;
-        if (!std::regex_search(line, match, include))
-          continue;
-        const fs::path folder = match[1].str();
-        if (*folder.begin() == room) {
-          EXPECT_LE(floor_of(folder.lexically_relative(room)), floor) << file << ": " << line;
-        }
-      }
-    }
-  }
-}
-
-TEST(Shelves, AFolderCanBeSeenAtAGlance) {
-  constexpr std::ptrdiff_t most_files = 31;
-  for (const auto& room : rooms)
-    for (fs::recursive_directory_iterator entry(root / room.name), end; entry != end; ++entry)
-      if (entry->path().filename() == "node_modules") {
-        entry.disable_recursion_pending(); // what npm has put there is not ours
-      } else if (entry->is_directory()) {
-        EXPECT_LE(std::distance(fs::directory_iterator(entry->path()), {}), most_files)
-            << entry->path() << " wants shelves";
-      }
-}
-
-/// A line of C++ without what stands in quotes and without its comment.
+/// Returns a line of C++ without its literals and comment.
 struct Line {
   std::string code;
   bool commented = false;
@@ -185,10 +53,10 @@ Line split(const std::string& text) {
 TEST(Numbers, OfTheRobotAreRowsAndOthersSayWhatTheyAre) {
   const std::regex number(R"((^|[^\w.'])(0[xX][0-9A-Fa-f']+|\d[\d']{2,})(?![\w.']))");
   std::size_t seen = 0;
-  for (const auto* room : {"vm", "protocol", "uploader", "compiler", "assembler", "serve"})
-    for (const auto& file : files_below(root / room, {".h", ".cpp"})) {
+  for (const auto* module : {"vm", "protocol", "uploader", "compiler", "assembler", "serve"})
+    for (const auto& file : files_below(root / module, {".h", ".cpp"})) {
       std::ifstream stream(file);
-      bool explained = false; // by a line above that is a comment
+      bool explained = false; // a comment on the line above explains it
       int at = 0;
       for (std::string text; std::getline(stream, text);) {
         ++at;
@@ -205,25 +73,12 @@ TEST(Numbers, OfTheRobotAreRowsAndOthersSayWhatTheyAre) {
   EXPECT_GT(seen, 10U);
 }
 
-TEST(Floors, EveryFolderWithCodeIsARoom) {
-  for (const auto& entry : fs::directory_iterator(root)) {
-    const auto name = entry.path().filename().string();
-    if (!entry.is_directory() || name.starts_with('.') || name == "build" || name == "tests" ||
-        name == "examples" || name == "docs") // docs: tree-sitter's own headers
+/// Fails for each file that includes one of `headers` outside the modules where that is allowed.
+void expect_only(const std::set<std::string>& allowed, const std::vector<std::string>& headers) {
+  for (const auto& module : modules()) {
+    if (allowed.contains(module))
       continue;
-    const bool known = std::any_of(rooms.begin(), rooms.end(),
-                                   [&](const Room& room) { return room.name == name; });
-    EXPECT_TRUE(known || files_below(entry.path(), {".h", ".cpp"}).empty()) << name;
-  }
-}
-
-/// Whether a file of the rooms below the edge names one of `headers`.
-void expect_only(const std::set<std::string>& allowed_rooms,
-                 const std::vector<std::string>& headers) {
-  for (const auto& room : rooms) {
-    if (allowed_rooms.contains(room.name))
-      continue;
-    for (const auto& file : files_below(root / room.name, {".h", ".cpp"})) {
+    for (const auto& file : files_below(root / module, {".h", ".cpp"})) {
       const auto text = read_all(file);
       for (const auto& header : headers)
         EXPECT_EQ(text.find("#include " + header), std::string::npos) << file << ": " << header;
@@ -231,35 +86,35 @@ void expect_only(const std::set<std::string>& allowed_rooms,
   }
 }
 
-TEST(Floors, OnlyParsersSeePegtl) {
+TEST(Includes, OnlyParsersSeePegtl) {
   expect_only({"base", "compiler", "assembler", "structured"}, {"<tao/pegtl"});
-  expect_only({"compiler", "assembler", "structured"}, {"\"base/peg.h"}); // which includes it
+  expect_only({"compiler", "assembler", "structured"},
+              {"\"base/peg.h"}); // the only one that includes it
 }
 
 /// CLI11 takes three seconds to compile.
-TEST(Floors, OnlyTheModelOfOptionsSeesCli11) {
+TEST(Includes, OnlyTheModelOfOptionsSeesCli11) {
   for (const auto& file : files_below(root / "cli", {".h", ".cpp"}))
     if (file.parent_path().filename() != "model") {
       EXPECT_EQ(read_all(file).find("#include <CLI/"), std::string::npos) << file;
     }
 }
 
-TEST(Floors, OnlyCoursesSeeXml) {
+TEST(Includes, OnlyCoursesSeeXml) {
   expect_only({"report"}, {"<pugixml"});
 }
 
-/// Which files name D-Bus.
-TEST(Floors, OnlyBluezSeesDBus) {
+TEST(Includes, OnlyBluezSeesDBus) {
   expect_only({"uploader", "serve"}, {"<sdbus-c++"});
-  for (const auto* room : {"uploader", "serve"})
-    for (const auto& file : files_below(root / room, {".h", ".cpp"}))
+  for (const auto* module : {"uploader", "serve"})
+    for (const auto& file : files_below(root / module, {".h", ".cpp"}))
       if (file.filename().string().find("bluez") == std::string::npos) {
         EXPECT_EQ(read_all(file).find("<sdbus-c++"), std::string::npos) << file;
       }
 }
 
-// The browser links everything but the edge.
-TEST(Floors, OnlyTheEdgeSeesFilesSocketsAndTheConsole) {
+// The browser links everything except the parts that need an operating system.
+TEST(Includes, OnlyTheEdgeSeesFilesSocketsAndTheConsole) {
   expect_only({"cli", "serve", "disk", "uploader"},
               {"<CLI/", "<asio", "<fstream", "<filesystem", "<iostream", "<cstdio", "<unistd.h",
                "<fcntl.h", "<sys/", "<csignal", "<termios.h"});
@@ -291,7 +146,7 @@ TEST(Golden, EveryLessonHasATaskAStarterATestAndASolution) {
     ++count;
     for (const auto* name : {"README.md", "robot.orb", "robot.test", "solution.orb"})
       EXPECT_TRUE(fs::exists(entry.path() / name)) << entry.path() << ": " << name;
-    // The transcript says that the starter fails and that the solution passes.
+    // The transcript must show that the starter fails and the solution passes.
     const auto lesson = entry.path().filename().string();
     const auto shown = read_all(root / "tests" / "golden" / "lessons" / (lesson + ".txt"));
     const auto solved = shown.find("--program solution.orb");
@@ -311,7 +166,7 @@ TEST(Golden, EveryRuleIsShown) {
   const std::regex row(R"re(ORB_RULE\(\w+,\s*"([a-z-]+)")re");
   for (const auto* table :
        {"compiler/text/rules.def", "structured/text/rules.def", "assembler/text/rules.def",
-        "report/rules.def", "testing/text/rules.def"}) {
+        "report/rules.def", "testing/text/rules.def", "protocol/judge/rules.def"}) {
     const auto text = read_all(root / table);
     const std::sregex_iterator end;
     std::size_t rows = 0;
@@ -322,14 +177,14 @@ TEST(Golden, EveryRuleIsShown) {
   }
 }
 
-/// The English of all rows of ORB_TEXT, by file and name.
+/// Returns the English texts of all ORB_TEXT rows, by file and name.
 std::map<std::string, std::string> all_texts() {
   std::map<std::string, std::string> texts;
   const std::regex row(R"re(ORB_TEXT\((\w+),\s*"((?:[^"\\]|\\.)*)")re");
   const std::regex quoted(R"re(\\(["\\]))re");
   std::vector<fs::path> files;
-  for (const auto& room : rooms)
-    for (auto& file : files_below(root / room.name, {".def"}))
+  for (const auto& module : modules())
+    for (auto& file : files_below(root / module, {".def"}))
       files.push_back(std::move(file));
   for (const auto& file : files) {
     const auto text = read_all(file);
@@ -340,7 +195,7 @@ std::map<std::string, std::string> all_texts() {
   return texts;
 }
 
-/// Whether a line has the pieces of a text around its holes, in their order.
+/// True if a line contains the parts of a text between its holes, in order.
 bool says(std::string_view line, std::string_view text) {
   std::size_t from = 0;
   while (true) {
@@ -353,7 +208,7 @@ bool says(std::string_view line, std::string_view text) {
   }
 }
 
-// What is never said by a test may be wrong, or never be said at all.
+// A text that no transcript shows may be wrong, or unreachable.
 TEST(Golden, EveryTextIsShown) {
   std::vector<std::string> lines;
   for (const auto& file : files_below(root / "tests" / "golden", {".txt"})) {
@@ -426,12 +281,12 @@ TEST(Docs, ArchitectureNamesFilesThatExist) {
 }
 
 TEST(Docs, LibraryLinksToTheExamplesAndNamesTheHeaders) {
-  const auto page = read_all(root / "docs" / "library.md");
+  const auto page = read_all(root / "docs" / "using" / "library.md");
   std::set<std::string> programs;
   for (const auto& file : files_below(root / "examples" / "library", {".cpp"})) {
     programs.insert(read_all(file));
-    EXPECT_NE(page.find("../examples/library/" + file.filename().string()), std::string::npos)
-        << "docs/library.md should link to " << file;
+    EXPECT_NE(page.find("../../examples/library/" + file.filename().string()), std::string::npos)
+        << "docs/using/library.md should link to " << file;
   }
   const std::string fence = "```cpp\n";
   std::size_t shown = 0;

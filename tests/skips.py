@@ -1,5 +1,5 @@
-"""skips.py RESULTS.xml: a line for each test that ctest skipped, and each case that GoogleTest did, with the reason
-that it printed. Reads what `ctest --output-junit` wrote."""
+"""skips.py RESULTS.xml: prints a line for each test skipped by ctest and each case skipped by GoogleTest, with the
+reason. Reads the output of `ctest --output-junit`."""
 import re
 import sys
 import xml.etree.ElementTree as xml

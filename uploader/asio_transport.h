@@ -12,8 +12,7 @@
 #include <utility>
 #include <vector>
 
-// What the links of an operating system have in common: each is an Asio stream behind the Transport
-// interface.
+// Shared by the links of an operating system: an Asio stream behind the Transport interface.
 
 namespace orb::uploader {
 
@@ -21,7 +20,7 @@ using protocol::LinkError;
 
 inline constexpr std::size_t read_most = 4096; // bytes at once
 inline constexpr std::chrono::milliseconds cancel_time{
-    2000}; // to give up an operation; it takes none
+    2000}; // limit for cancelling an operation, which normally takes no time
 inline tl::unexpected<LinkError> failed(LinkError::Kind kind, std::string message) {
   return tl::unexpected(LinkError{kind, std::move(message)});
 }
@@ -31,7 +30,7 @@ inline Instant steady_now() {
       std::chrono::duration_cast<Duration>(std::chrono::steady_clock::now().time_since_epoch()));
 }
 
-/// Keeps what must not be destroyed, since that would wait for an operation that has no end.
+/// Keeps an object whose destructor would wait for an operation that never ends.
 inline void keep_forever(std::unique_ptr<asio::io_context> io) {
   static std::mutex mutex;
   static auto* const kept = new std::vector<std::unique_ptr<asio::io_context>>;
@@ -39,13 +38,14 @@ inline void keep_forever(std::unique_ptr<asio::io_context> io) {
   kept->push_back(std::move(io));
 }
 
-/// A stream of Asio with deadlines. One operation at a time; an unfinished one is cancelled. Where
-/// the system does not let go of it, the link is broken, and what the operation may still touch is
-/// left alone.
+/// An Asio stream with deadlines. Runs one operation at a time and cancels an unfinished one. If
+/// the system does not release it, the link is broken, and memory the operation may still touch is
+/// kept alive.
 template <class Stream>
 class AsioTransport final : public protocol::Transport {
 public:
-  AsioTransport(std::unique_ptr<asio::io_context> io, Stream stream, Duration write_time, Stop stop)
+  AsioTransport(std::unique_ptr<asio::io_context> io, Stream stream, Duration write_time,
+                StopRequests stop)
       : io_(std::move(io)), stream_(std::move(stream)), write_time_(write_time),
         stop_(std::move(stop)) {}
   AsioTransport(const AsioTransport&) = delete;
@@ -58,7 +58,7 @@ public:
   Instant now() const override { return steady_now(); }
 
   tl::expected<void, LinkError> write(ByteView bytes) override {
-    if (stuck_ || lost_) // in the middle of a packet
+    if (stuck_ || lost_) // the stream is in the middle of a packet
       return failed(LinkError::Kind::Broken, takes_nothing);
     const auto operation = std::make_shared<Operation>();
     operation->bytes.assign(bytes.begin(), bytes.end());
@@ -108,14 +108,14 @@ private:
   static constexpr auto takes_nothing = "the link no longer accepts data";
   static constexpr auto not_let_go = "the system does not release the link";
 
-  /// What an operation has to do with; it may come to its end after nobody waits any more.
+  /// State used by an operation, which may end after the wait for it has.
   struct Operation {
     std::optional<asio::error_code> result;
     std::size_t size = 0;
     Bytes bytes;
   };
 
-  /// Runs the operation to its end or to the deadline; whether it has ended.
+  /// Runs the operation until it ends or the deadline passes. Returns true if it has ended.
   bool run(const Operation& operation, Instant deadline) {
     io_->restart();
     io_->poll();
@@ -131,7 +131,7 @@ private:
     return operation.result.has_value();
   }
 
-  /// Cancels the operation unless it has ended; whether it came to its own end.
+  /// Cancels the operation unless it has ended. Returns true if it ended by itself.
   bool cancel_unless(const Operation& operation) {
     if (operation.result)
       return true;
@@ -144,7 +144,7 @@ private:
   }
 
   tl::unexpected<LinkError> link_error(const asio::error_code& error) {
-    // A pty whose other end is closed says EIO, a vanished radio link ECONNRESET or ETIMEDOUT.
+    // A pty whose other end is closed reports EIO, a vanished radio link ECONNRESET or ETIMEDOUT.
     if (error == asio::error::eof || error.value() == EIO ||
         error == asio::error::connection_reset || error == asio::error::broken_pipe ||
         error == asio::error::timed_out || error.value() == ENODEV)
@@ -155,14 +155,14 @@ private:
   std::unique_ptr<asio::io_context> io_;
   Stream stream_;
   Duration write_time_;
-  Stop stop_;
-  bool stuck_ = false; ///< a write did not come to its end
+  StopRequests stop_;
+  bool stuck_ = false; ///< a write did not finish
   bool lost_ = false;  ///< an operation cannot be cancelled
 };
 
 using Opened = tl::expected<std::unique_ptr<protocol::Transport>, LinkError>;
 
-/// The number that errno would have: sockets of Windows have numbers of their own.
+/// Returns the number that errno would have: Windows sockets use other numbers.
 inline int error_number(const asio::error_code& error) {
   if (error == asio::error::connection_refused)
     return ECONNREFUSED;
@@ -173,24 +173,25 @@ inline int error_number(const asio::error_code& error) {
   return error.default_error_condition().value();
 }
 
-/// Nothing has been sent while a link is being opened.
+/// The link was not yet open, so nothing has been sent.
 inline tl::unexpected<LinkError> interrupted() {
   return failed(LinkError::Kind::Interrupted, interrupted_opening);
 }
 
-/// Lets `wait` wait for short times until it is true, or until nobody waits any more.
+/// Calls `wait` with short times. Returns true once it does; false if the deadline passes or a stop
+/// is requested.
 template <class Wait>
-bool wait_unless(const Stop& stop, Instant deadline, const Wait& wait) {
+bool wait_unless(const StopRequests& stop, Instant deadline, const Wait& wait) {
   while (stop() == 0 && steady_now() < deadline)
     if (wait(std::min(stop_notice, deadline - steady_now())))
       return true;
   return false;
 }
 
-/// Connects within the budget; the error is 0 for success.
+/// Connects within the budget. Returns 0 or an error number.
 template <class Socket, class Connect>
-int connect_in_time(asio::io_context& io, Socket& socket, const Budgets& budgets, const Stop& stop,
-                    const Connect& connect) {
+int connect_in_time(asio::io_context& io, Socket& socket, const Budgets& budgets,
+                    const StopRequests& stop, const Connect& connect) {
   asio::error_code result = asio::error::timed_out;
   connect([&](const asio::error_code& error) { result = error; });
   io.restart();
@@ -207,9 +208,9 @@ int connect_in_time(asio::io_context& io, Socket& socket, const Budgets& budgets
 }
 
 /// Opens a serial port: raw, exclusive, flushed.
-Opened open_serial(const Endpoint& endpoint, const Budgets& budgets, const Stop& stop);
+Opened open_serial(const Endpoint& endpoint, const Budgets& budgets, const StopRequests& stop);
 
-/// Opens a socket of classic Bluetooth.
-Opened open_rfcomm(const Endpoint& endpoint, const Budgets& budgets, const Stop& stop);
+/// Opens a classic Bluetooth socket.
+Opened open_rfcomm(const Endpoint& endpoint, const Budgets& budgets, const StopRequests& stop);
 
 } // namespace orb::uploader

@@ -14,7 +14,7 @@ using spec::BleCharacteristic;
 struct FailureInfo {
   BleFailure failure;
   std::string_view remedy;
-  bool again; ///< whether a later try can help
+  bool again; ///< a later attempt can help
 };
 
 // clang-format off
@@ -53,11 +53,11 @@ consteval bool failures_are_in_order() {
 }
 static_assert(failures_are_in_order());
 
-/// Pieces out, notifications in.
+/// Writes packets in pieces and reads notifications.
 class BleTransport final : public protocol::Transport {
 public:
   BleTransport(std::unique_ptr<Gatt> gatt, spec::BleProtocol protocol, const Budgets& budgets,
-               Stop stop)
+               StopRequests stop)
       : gatt_(std::move(gatt)), commands_(spec::takes_packets(protocol)), budgets_(budgets),
         stop_(std::move(stop)) {}
 
@@ -89,8 +89,8 @@ private:
         LinkError{LinkError::Kind::Closed, fmt::format("{}; {}", error.seen, remedy(error))});
   }
 
-  /// A piece that was not acknowledged may have arrived, so it is never sent again: the packet is
-  /// lost, unless the link is.
+  /// A piece without acknowledgement may have arrived, so it is never repeated: the packet is lost,
+  /// or the link is.
   tl::expected<void, LinkError> lose(const BleError& error) const {
     if (error.failure == BleFailure::Refused)
       return {};
@@ -102,13 +102,13 @@ private:
   std::unique_ptr<Gatt> gatt_;
   BleCharacteristic commands_;
   Budgets budgets_;
-  Stop stop_;
+  StopRequests stop_;
 };
 
-/// The steps to one robot, each within its budget.
+/// Takes the steps to one robot, each within its budget.
 class Opening {
 public:
-  Opening(Gatt& gatt, const Budgets& budgets, const Stop& stop, const OnBleStep& on_step,
+  Opening(Gatt& gatt, const Budgets& budgets, const StopRequests& stop, const OnBleStep& on_step,
           const OnBlePeer& on_peer)
       : gatt_(gatt), budgets_(budgets), stop_(stop), on_step_(on_step), on_peer_(on_peer) {}
 
@@ -127,12 +127,12 @@ public:
       }
       if (time >= budgets_.opens || !info(done.error().failure).again || stop_() > 0)
         return give_up(done.error());
-      gatt_.let_go(); // what a link has not given it will not give later
+      gatt_.let_go(); // a link that failed once will not recover
       gatt_.rest(patience(budgets_.backoff(time)));
     }
   }
 
-  /// What the robot speaks, after run().
+  /// The robot's protocol, known after run().
   spec::BleProtocol protocol() const { return protocol_; }
 
 private:
@@ -144,7 +144,7 @@ private:
         return done;
     if (auto known = check_characteristics(); !known)
       return known;
-    // Noticed before a word is written: it would reach the robot in the middle of their talk.
+    // Check before writing: a write would disturb the other program's conversation.
     const auto answers = spec::sends_packets(protocol_);
     if (gatt_.held(answers))
       return tl::unexpected(BleError{BleFailure::Held, std::string(held_by_another)});
@@ -201,7 +201,7 @@ private:
     return {};
   }
 
-  /// A step that is taken again is not told again.
+  /// Reports each step once, even if it is repeated.
   void tell(std::string found) {
     if (!told_ || step_ > *told_) {
       told_ = step_;
@@ -219,7 +219,7 @@ private:
 
   Gatt& gatt_;
   const Budgets& budgets_;
-  const Stop& stop_;
+  const StopRequests& stop_;
   const OnBleStep& on_step_;
   const OnBlePeer& on_peer_;
   spec::BleProtocol protocol_ = spec::BleProtocol::V1;
@@ -245,7 +245,7 @@ std::string remedy(const BleError& error) {
 }
 
 tl::expected<std::unique_ptr<protocol::Transport>, BleError>
-open_ble(std::unique_ptr<Gatt> gatt, const Budgets& budgets, const Stop& stop,
+open_ble(std::unique_ptr<Gatt> gatt, const Budgets& budgets, const StopRequests& stop,
          const OnBleStep& on_step, const OnBlePeer& on_peer) {
   Opening opening(*gatt, budgets, stop, on_step, on_peer);
   if (const auto opened = opening.run(); !opened)

@@ -11,10 +11,10 @@
 
 namespace orb::uploader {
 
-/// Why there is no way to a robot over Bluetooth LE.
+/// Why a robot cannot be reached over Bluetooth LE.
 enum class BleFailure : std::uint8_t {
   NotBuilt,
-  NoSystem, ///< this system's Bluetooth LE is not spoken to
+  NoSystem, ///< orb does not support this system's Bluetooth LE
   NotLoaded,
   NoBus,
   NoDaemon,
@@ -26,7 +26,7 @@ enum class BleFailure : std::uint8_t {
   Ambiguous,
   NotConnected,
   NotResolved,
-  Undriven, ///< it is known, and orb does not drive it
+  Undriven, ///< a known kind that orb does not drive
   NoRobot,
   Refused,
   Held,
@@ -37,22 +37,22 @@ enum class BleFailure : std::uint8_t {
 struct BleError {
   BleFailure failure{};
   std::string seen;      ///< what happened, in words
-  std::string address{}; ///< of the robot, where it is known
+  std::string address{}; ///< of the robot, if known
 };
 
-/// What helps after a failure: a sentence, or the command to write.
+/// Returns what helps after a failure: a sentence, or the command to write.
 std::string remedy(const BleError& error);
 
-/// Hears of each step to a robot once: what was found, or why it ends there.
+/// Called for each step once, with what was found or why it failed.
 using OnBleStep =
     std::function<void(protocol::BleStep step, const tl::expected<std::string, BleError>& found)>;
 
-/// A robot at the other end of a link.
+/// The robot at the other end of a link.
 struct BlePeer {
-  std::string name; ///< as it advertises it; empty where it tells none
+  std::string name; ///< as advertised; empty if it advertises none
   spec::BleProtocol protocol{};
 };
-/// Hears of the robot once the link to it is open.
+/// Called once the link to a robot is open.
 using OnBlePeer = std::function<void(const BlePeer&)>;
 
 } // namespace orb::uploader

@@ -17,12 +17,12 @@ using bluez::CallError;
 using protocol::BleStep;
 using spec::BleCharacteristic;
 
-double seconds(Duration time) {
+double in_seconds(Duration time) {
   return static_cast<double>(time.count()) / 1e9;
 }
 
-/// What is said of a device in lists of them.
-SeenDevice describe(const Bus& bus, const std::string& path) {
+/// Describes a device for lists.
+SeenDevice describe_device(const Bus& bus, const std::string& path) {
   SeenDevice device;
   const auto* const interface = bluez::device_interface;
   device.address = bus.get<std::string>(path, interface, "Address").value_or("");
@@ -33,7 +33,7 @@ SeenDevice describe(const Bus& bus, const std::string& path) {
   return device;
 }
 
-/// A device that is there now: it was heard in this scan, or is connected.
+/// Returns true if the device is in range: it was seen in this scan, or is connected.
 bool is_near(const SeenDevice& device) {
   return device.rssi || device.connected;
 }
@@ -42,14 +42,16 @@ std::string strength(const SeenDevice& device) {
   return device.rssi ? fmt::format("{} dBm", *device.rssi) : std::string("connected");
 }
 
+/// A robot as bluetoothd shows it. Large because each step of a connection has its own member and
+/// its own failures.
 class BluezGatt final : public Gatt {
 public:
   explicit BluezGatt(const Endpoint& endpoint) : endpoint_(endpoint) {}
   BluezGatt(const BluezGatt&) = delete;
   BluezGatt& operator=(const BluezGatt&) = delete;
 
-  /// A robot that stays connected is awake, and nobody else finds it; but what another program
-  /// has is left to it.
+  /// A connected robot stays awake, and nobody else can find it, so disconnect. Leaves a link of
+  /// another program alone.
   ~BluezGatt() override { hang_up(); }
 
   Instant now() const override { return bluez::steady_now(); }
@@ -82,11 +84,13 @@ public:
   }
 
   std::string address() const override {
-    return bus_ == nullptr || device_.empty() ? std::string() : describe(*bus_, device_).address;
+    return bus_ == nullptr || device_.empty() ? std::string()
+                                              : describe_device(*bus_, device_).address;
   }
 
   std::string name() const override {
-    return bus_ == nullptr || device_.empty() ? std::string() : describe(*bus_, device_).name;
+    return bus_ == nullptr || device_.empty() ? std::string()
+                                              : describe_device(*bus_, device_).name;
   }
 
   void let_go() override { hang_up(); }
@@ -94,7 +98,8 @@ public:
   tl::expected<void, BleError> write(BleCharacteristic characteristic, ByteView bytes,
                                      const Patience& patience) override {
     step_ = protocol::step_of(characteristic);
-    const bluez::Options options{{"type", std::string("request")}}; // that is, with a receipt
+    // A request, which is acknowledged.
+    const bluez::Options options{{"type", std::string("request")}};
     const auto written =
         bus_->call(path_of(characteristic), bluez::characteristic_interface, "WriteValue", patience,
                    Bytes(bytes.begin(), bytes.end()), options);
@@ -111,7 +116,7 @@ public:
     step_ = BleStep::Subscribe;
     const auto path = path_of(answers);
     const BleError taken{BleFailure::Held, std::string(held_by_another)};
-    // Two programs at once would each read the answers to both.
+    // Two programs would each read the answers to both.
     if (held(answers))
       return tl::unexpected(taken);
     bus_->collect(path);
@@ -163,7 +168,8 @@ private:
     return {};
   }
 
-  /// Why something did not work: the adapter first, then the link, then the thing itself.
+  /// Describes a failure by its most basic cause: the adapter first, then the link, then the call
+  /// itself.
   tl::unexpected<BleError> failed(BleFailure failure, std::string_view what,
                                   const CallError& call) const {
     if (call.interrupted)
@@ -204,11 +210,11 @@ private:
                                   : equal_words(device.name, endpoint_.name);
   }
 
-  /// The devices that are near and are the one that is meant, by their paths.
+  /// Returns the paths of the devices in range that match.
   std::vector<std::string> candidates() const {
     std::vector<std::string> paths;
     for (const auto& path : bus_->all(bluez::device_interface))
-      if (const auto device = describe(*bus_, path); is_near(device) && is_meant(device))
+      if (const auto device = describe_device(*bus_, path); is_near(device) && is_meant(device))
         paths.push_back(path);
     return paths;
   }
@@ -226,7 +232,7 @@ private:
       }));
       if (found.empty())
         return not_found(patience.deadline - start, patience);
-      return meet(found); // how strongly it is received is known only now
+      return meet(found); // only now is the signal strength known
     }
     return meet(found);
   }
@@ -237,7 +243,7 @@ private:
           BleError{BleFailure::Ambiguous,
                    fmt::format("{} robots are called `{}`", found.size(), endpoint_.name)});
     device_ = found.front();
-    const auto device = describe(*bus_, device_);
+    const auto device = describe_device(*bus_, device_);
     return fmt::format("{} is nearby ({})", device.name.empty() ? device.address : device.name,
                        strength(device));
   }
@@ -250,7 +256,7 @@ private:
     std::vector<std::string> names;
     std::size_t others = 0;
     for (const auto& path : bus_->all(bluez::device_interface)) {
-      const auto device = describe(*bus_, path);
+      const auto device = describe_device(*bus_, path);
       if (is_near(device) && spec::find_ble_name(device.name) != nullptr)
         names.push_back(fmt::format("{} ({})", device.name, strength(device)));
       else if (is_near(device))
@@ -262,7 +268,7 @@ private:
         BleError{BleFailure::NotFound,
                  fmt::format("`{}` was not seen within {:.1f} s{}{}",
                              endpoint_.name.empty() ? to_string(endpoint_.address) : endpoint_.name,
-                             seconds(budget), robots,
+                             in_seconds(budget), robots,
                              others > 0 ? fmt::format("; devices that are not robots: {}", others)
                                         : std::string())});
   }
@@ -270,16 +276,16 @@ private:
   tl::expected<std::string, BleError> connect(const Patience& patience) {
     step_ = BleStep::Connect;
     const auto before = connected();
-    static_cast<void>(bus_->has_risen(device_, "Connected")); // earlier
+    static_cast<void>(bus_->has_risen(device_, "Connected")); // discard earlier changes
     const auto called = bus_->call(device_, bluez::device_interface, "Connect", patience);
     if (!called && !called.error().is("AlreadyConnected")) {
-      // A call that is not waited for any more goes on; but what another program has is left to it.
+      // An abandoned call continues, so cancel it, but leave a link of another program alone.
       if (!before)
         static_cast<void>(
             bus_->call(device_, bluez::device_interface, "Disconnect", {now() + 1s, {}}));
       return failed(BleFailure::NotConnected, "the connection failed", called.error());
     }
-    // The answer can come before the property says so, and the link be gone again by then.
+    // The answer may precede the property change, and the link may already be lost again.
     auto risen = before;
     static_cast<void>(bus_->wait(patience, [&] {
       risen = risen || connected() || bus_->has_risen(device_, "Connected");
@@ -303,7 +309,7 @@ private:
     if (lost() || !flag("ServicesResolved"))
       return failed(BleFailure::NotResolved,
                     fmt::format("the robot did not describe its services within {:.1f} s",
-                                seconds(patience.deadline - start)),
+                                in_seconds(patience.deadline - start)),
                     {});
     return std::string("its services are known");
   }
@@ -312,7 +318,7 @@ private:
   std::unique_ptr<Bus> bus_;
   std::string adapter_;
   std::string device_;
-  bool ours_ = false;           ///< the link to the robot
+  bool ours_ = false;           ///< this object made the link to the robot
   std::optional<BleStep> step_; ///< for messages
 };
 
@@ -327,7 +333,7 @@ std::unique_ptr<Gatt> make_bluez_gatt(const Endpoint& endpoint) {
 }
 
 tl::expected<std::vector<SeenDevice>, BleError>
-scan_ble(Duration time, const Budgets& budgets, const Stop& stop,
+scan_ble(Duration time, const Budgets& budgets, const StopRequests& stop,
          const std::function<void(std::size_t)>& progress) {
   const Patience answers{bluez::steady_now() + budgets.ble_answer, stop};
   auto bus = Bus::open(answers);
@@ -338,7 +344,7 @@ scan_ble(Duration time, const Budgets& budgets, const Stop& stop,
     return tl::unexpected(adapter.error());
   if (auto error = bluez::trouble(**bus, *adapter))
     return tl::unexpected(*std::move(error));
-  std::map<std::string, SeenDevice> seen; // by path; what advertises itself seldom stays in
+  std::map<std::string, SeenDevice> seen; // by path; keeps devices that advertise rarely
   const bluez::Discovery discovery(**bus, *adapter, answers);
   if (!discovery.started() && discovery.started().error().is("AccessDenied"))
     return tl::unexpected(BleError{BleFailure::NotAllowed, "no permission to use Bluetooth"});
@@ -346,7 +352,7 @@ scan_ble(Duration time, const Budgets& budgets, const Stop& stop,
   std::optional<BleError> error;
   static_cast<void>((*bus)->wait(patience, [&] {
     for (const auto& path : (*bus)->all(bluez::device_interface))
-      if (auto device = describe(**bus, path); is_near(device))
+      if (auto device = describe_device(**bus, path); is_near(device))
         seen[path] = std::move(device);
     progress(seen.size());
     error = bluez::trouble(**bus, *adapter);
@@ -360,7 +366,7 @@ scan_ble(Duration time, const Budgets& budgets, const Stop& stop,
   for (auto& [path, device] : seen)
     devices.push_back(std::move(device));
   std::ranges::stable_sort(devices, std::greater(), [](const SeenDevice& device) {
-    return device.connected ? 0 : device.rssi.value_or(-1000); // weaker than anything received
+    return device.connected ? 0 : device.rssi.value_or(-1000); // below any real signal
   });
   return devices;
 }
@@ -386,8 +392,8 @@ std::unique_ptr<Gatt> make_bluez_gatt(const Endpoint&) {
   return std::make_unique<NoGatt>(not_built);
 }
 
-tl::expected<std::vector<SeenDevice>, BleError> scan_ble(Duration, const Budgets&, const Stop&,
-                                                         const std::function<void(std::size_t)>&) {
+tl::expected<std::vector<SeenDevice>, BleError>
+scan_ble(Duration, const Budgets&, const StopRequests&, const std::function<void(std::size_t)>&) {
   return tl::unexpected(not_built);
 }
 

@@ -13,7 +13,7 @@ namespace {
 
 constexpr auto manager_interface = "org.freedesktop.DBus.ObjectManager";
 
-BleError describe(const CallError& error) {
+BleError ble_error(const CallError& error) {
   if (error.interrupted)
     return ble_interrupted();
   if (error.is("AccessDenied"))
@@ -40,14 +40,14 @@ tl::expected<std::unique_ptr<Bus>, BleError> Bus::open(const Patience& patience)
     bus->connection_ = sdbus::createSystemBusConnection();
     bus->subscribe();
   } catch (const sdbus::Error& error) {
-    // A signal, too, ends the library's own wait: it is nothing the bus has done.
+    // A signal also ends the library's own wait; the bus is not to blame.
     if (patience.stopped())
       return tl::unexpected(ble_interrupted());
     return tl::unexpected(BleError{
         BleFailure::NoBus, fmt::format("there is no D-Bus system bus: {}", error.getMessage())});
   }
   if (const auto read = bus->read_objects(patience); !read)
-    return tl::unexpected(describe(read.error()));
+    return tl::unexpected(ble_error(read.error()));
   return bus;
 }
 
@@ -75,7 +75,8 @@ tl::expected<void, CallError> Bus::read_objects(const Patience& patience) {
   }
 }
 
-/// A call that cannot be sent: is the bus itself gone? That shows when it is listened to.
+/// Describes a call that could not be sent. Listens first, to find out whether the bus itself is
+/// gone.
 CallError Bus::uncalled(const sdbus::Error& error) {
   static_cast<void>(wait({steady_now(), {}}, [] { return true; }));
   return {error.getName(), error.getMessage()};
@@ -84,7 +85,7 @@ CallError Bus::uncalled(const sdbus::Error& error) {
 tl::expected<void, CallError> Bus::finish(sdbus::IProxy& proxy, const sdbus::MethodCall& message,
                                           const Patience& patience, const OnReply& on_reply) {
   std::optional<tl::expected<void, CallError>> result;
-  // The wait below has its own end; this one only has to be later.
+  // The wait below has its own limit; this one only has to be later.
   const auto most = std::chrono::duration_cast<std::chrono::microseconds>(
       std::max<Duration>(patience.deadline - steady_now(), {}) + 1s);
   auto pending = proxy.callMethod(
@@ -208,14 +209,14 @@ std::optional<BleError> trouble(const Bus& bus, const std::string& adapter) {
 
 Discovery::Discovery(Bus& bus, std::string adapter, const Patience& patience)
     : bus_(bus), adapter_(std::move(adapter)) {
-  // Without a filter by services: which ones robots advertise is written down nowhere.
+  // No filter by services: no document says which ones robots advertise.
   const Options filter{{"Transport", std::string("le")}};
   static_cast<void>(bus_.call(adapter_, adapter_interface, "SetDiscoveryFilter", patience, filter));
   started_ = bus_.call(adapter_, adapter_interface, "StartDiscovery", patience);
 }
 
 Discovery::~Discovery() {
-  // It would end with this program; but a connection comes about sooner without it.
+  // Discovery would end with this program, but connecting is faster once it has stopped.
   if (started_)
     static_cast<void>(
         bus_.call(adapter_, adapter_interface, "StopDiscovery", {steady_now() + 1s, {}}));

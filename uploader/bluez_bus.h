@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-/// bluetoothd as a tree of objects with properties. Only files named bluez… see D-Bus.
+/// bluetoothd as a tree of objects with properties. Only files named bluez… use D-Bus.
 namespace orb::uploader::bluez {
 
 inline constexpr auto service = "org.bluez";
@@ -25,26 +25,26 @@ using Properties = std::map<std::string, sdbus::Variant>;
 using Interfaces = std::map<std::string, Properties>;
 using Options = Properties; ///< of a method
 
-/// What a call was answered with where it failed.
+/// The error answer to a call.
 struct CallError {
-  std::string name; ///< such as `org.bluez.Error.Failed`; empty where no answer came in time
+  std::string name; ///< for example `org.bluez.Error.Failed`; empty if no answer came in time
   std::string message;
   bool interrupted = false;
 
   bool is(std::string_view last) const { return name.ends_with(last); }
 };
 
-/// The connection, with a copy of bluetoothd's objects that its signals keep up to date. It has no
-/// thread: signals are taken in while something is waited for.
+/// The connection, with a copy of bluetoothd's objects that signals keep up to date. There is no
+/// thread: signals are processed during waits.
 class Bus {
 public:
   /// Connects and reads all objects.
   static tl::expected<std::unique_ptr<Bus>, BleError> open(const Patience& patience);
 
-  /// Waits until `done`; false when patience ends first.
+  /// Waits until `done` returns true. Returns false if the patience ends first.
   bool wait(const Patience& patience, const std::function<bool()>& done);
 
-  /// Calls a method that answers nothing.
+  /// Calls a method that returns nothing.
   template <class... Arguments>
   tl::expected<void, CallError> call(const std::string& path, const std::string& interface,
                                      const std::string& method, const Patience& patience,
@@ -59,10 +59,10 @@ public:
     }
   }
 
-  /// Null where there is no such object.
+  /// Returns the properties of an object; null if it does not exist.
   const Properties* find(const std::string& path, const std::string& interface) const;
 
-  /// The paths of the objects that have the interface, in their order.
+  /// Returns the paths of the objects with this interface, in order.
   std::vector<std::string> all(const std::string& interface) const;
 
   template <class Value>
@@ -77,18 +77,18 @@ public:
     return at->second.template get<Value>();
   }
 
-  /// Whether the property has become true since this was last asked, whatever it is now: what comes
-  /// and goes between two looks is not missed.
+  /// Returns true if the property became true since the last call, whatever it is now. Thus a brief
+  /// change between two calls is not missed.
   bool has_risen(const std::string& path, const std::string& property) {
     return risen_.erase({path, property}) > 0;
   }
 
-  /// Whether bluetoothd is still there.
+  /// Returns true if bluetoothd is still running.
   bool alive() const { return alive_; }
 
-  /// Keeps the values that the characteristic at `path` notifies of.
+  /// Collects the notifications of the characteristic at `path`.
   void collect(std::string path) { collected_from_ = std::move(path); }
-  /// The bytes that were notified of since the last take().
+  /// Returns the bytes notified since the last take().
   Bytes take() { return std::exchange(collected_, {}); }
   bool has_bytes() const { return !collected_.empty(); }
 
@@ -111,19 +111,19 @@ private:
   Bytes collected_;
 };
 
-/// That nobody waits any more.
+/// The error for a wait stopped by the user.
 BleError ble_interrupted();
 
-/// The steady clock as an Instant.
+/// Returns the steady clock as an Instant.
 Instant steady_now();
 
-/// The first adapter that is on, else the first.
+/// Returns the first adapter that is on, otherwise the first.
 tl::expected<std::string, BleError> find_adapter(const Bus& bus);
 
-/// What is wrong with the bus or the adapter, if anything is.
+/// Returns what is wrong with the bus or the adapter; nullopt if nothing is.
 std::optional<BleError> trouble(const Bus& bus, const std::string& adapter);
 
-/// Lets the adapter listen for what advertises itself, as long as it lives.
+/// Scans for advertising devices while this object lives.
 class Discovery {
 public:
   Discovery(Bus& bus, std::string adapter, const Patience& patience);

@@ -1,4 +1,4 @@
-// Bluetooth LE is not reached from here: the playground does that, in a browser.
+// Bluetooth LE is not supported here: the playground provides it in a browser.
 
 #include "uploader/bluez.h"
 #include "uploader/no_gatt.h"
@@ -18,8 +18,8 @@ std::unique_ptr<Gatt> make_bluez_gatt(const Endpoint&) {
   return std::make_unique<NoGatt>(elsewhere);
 }
 
-tl::expected<std::vector<SeenDevice>, BleError> scan_ble(Duration, const Budgets&, const Stop&,
-                                                         const std::function<void(std::size_t)>&) {
+tl::expected<std::vector<SeenDevice>, BleError>
+scan_ble(Duration, const Budgets&, const StopRequests&, const std::function<void(std::size_t)>&) {
   return tl::unexpected(elsewhere);
 }
 

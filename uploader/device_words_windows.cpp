@@ -14,7 +14,7 @@ const std::string_view port_forms =
 
 const std::string_view port_kinds = "COM5, tcp://, sim:";
 
-/// A line about Bluetooth LE is left out, and one that is as the line before has become.
+/// Drops lines about Bluetooth LE, and lines that have become equal to the one before.
 std::string with_ports_of_this_system(std::string text) {
   constexpr std::string_view linux_ports[] = {"/dev/rfcomm0", "rfcomm://68:86:E7:00:11:22"};
   std::istringstream lines(text);
@@ -45,7 +45,7 @@ bool is_device_name(std::string_view port) {
          std::all_of(port.begin() + com.size(), port.end(), is_digit);
 }
 
-/// The words of its C library end before the errors of sockets.
+/// The C library has no texts for socket errors.
 const char* error_words(int error) {
   switch (error) {
   case ECONNREFUSED: return "connection refused";

@@ -68,7 +68,7 @@ tl::expected<Endpoint, std::string> read_ble(Endpoint endpoint, std::string_view
                                 "`ble://SK-1A2B`; `orb ports` lists them");
   if (const auto address = parse_bluetooth_address(rest))
     endpoint.address = *address;
-  else if (rest.find_first_of(":/") != rest.npos) // no robot's name
+  else if (rest.find_first_of(":/") != rest.npos) // cannot be a robot's name
     return wrong(endpoint.text, "a Bluetooth address is written `ble://AA:BB:CC:DD:EE:FF`");
   else
     endpoint.name = rest;
@@ -148,7 +148,7 @@ tl::expected<Endpoint, std::string> parse_endpoint(std::string_view url) {
 std::array<std::uint8_t, 10> rfcomm_socket_address(const BluetoothAddress& address,
                                                    std::uint8_t channel) {
   std::array<std::uint8_t, 10> bytes{};
-  constexpr std::uint16_t family = 31; // AF_BLUETOOTH of Linux
+  constexpr std::uint16_t family = 31; // AF_BLUETOOTH on Linux
   std::memcpy(bytes.data(), &family, sizeof(family));
   std::reverse_copy(address.begin(), address.end(), bytes.begin() + sizeof(family));
   bytes[sizeof(family) + address.size()] = channel;

@@ -10,15 +10,15 @@ namespace orb::uploader {
 inline constexpr std::string_view held_by_another =
     "another program is subscribed to the robot's answers";
 
-/// How long something is waited for.
+/// A limit for a wait.
 struct Patience {
   Instant deadline;
-  Stop stop; ///< asked while it is waited
+  StopRequests stop; ///< polled while waiting
 
   bool stopped() const { return stop && stop() > 0; }
 };
 
-/// One robot as the Bluetooth LE of a computer shows it. It ends a wait within stop_notice of its
+/// A robot as a computer's Bluetooth LE shows it. All waits end within stop_notice of their
 /// patience.
 class Gatt {
 public:
@@ -26,38 +26,39 @@ public:
 
   virtual Instant now() const = 0;
 
-  /// Takes one of the steps from Bus to Services; what was found, in words.
+  /// Takes one of the steps from Bus to Services. Returns what was found, in words.
   virtual tl::expected<std::string, BleError> go(protocol::BleStep step,
                                                  const Patience& patience) = 0;
 
-  /// Whether the robot has it; known after the step Services.
+  /// Returns true if the robot has the characteristic; known after the step Services.
   virtual bool has(spec::BleCharacteristic characteristic) const = 0;
 
-  /// Whether another program has the answers that come there; known after the step Services.
+  /// Returns true if another program is subscribed to these answers; known after the step Services.
   virtual bool held(spec::BleCharacteristic answers) const = 0;
 
-  /// The robot's address, for what helps; empty where it is not known yet.
+  /// The robot's address, for remedies; empty while unknown.
   virtual std::string address() const = 0;
 
-  /// The name that it advertises; empty where it is not known.
+  /// The advertised name; empty if unknown.
   virtual std::string name() const = 0;
 
-  /// Ends the link to the robot if it was made here, so that the next step Connect makes a new one.
+  /// Ends the link to the robot if this object made it, so that the next step Connect makes a new
+  /// one.
   virtual void let_go() = 0;
 
-  /// Writes at most spec::ble_piece_bytes and waits for the receipt. A piece that fails may have
-  /// arrived.
+  /// Writes at most spec::ble_piece_bytes and waits for the acknowledgement. A piece that fails may
+  /// have arrived.
   virtual tl::expected<void, BleError> write(spec::BleCharacteristic characteristic, ByteView bytes,
                                              const Patience& patience) = 0;
 
-  /// From now on read() has what the robot sends there.
+  /// Makes read() return what the robot sends there.
   virtual tl::expected<void, BleError> subscribe(spec::BleCharacteristic answers,
                                                  const Patience& patience) = 0;
 
-  /// Lets time pass.
+  /// Waits until the deadline or a request to stop.
   virtual void rest(const Patience& patience) = 0;
 
-  /// What has been notified of, as soon as there is a byte; nothing when `deadline` passes first.
+  /// Returns notified bytes as soon as there are any; empty if `deadline` passes first.
   virtual tl::expected<Bytes, BleError> read(Instant deadline) = 0;
 };
 

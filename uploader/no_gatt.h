@@ -6,7 +6,7 @@
 
 namespace orb::uploader {
 
-/// The robot of a program without Bluetooth LE: no step leads to it, for a reason.
+/// Stands in for a robot in a build without Bluetooth LE: every step fails with the reason.
 class NoGatt final : public Gatt {
 public:
   explicit NoGatt(BleError why) : why_(std::move(why)) {}

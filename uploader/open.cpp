@@ -1,4 +1,4 @@
-// Opens links.
+// Opens links of all kinds.
 
 #include "uploader/asio_transport.h"
 #include "uploader/ble.h"
@@ -16,9 +16,9 @@ namespace {
 
 using Addresses = asio::ip::tcp::resolver::results_type;
 
-/// The addresses of a host. A look-up can take half a minute and cannot be cancelled: where nobody
-/// waits any more its thread is left to itself.
-tl::expected<Addresses, LinkError> look_up(const Endpoint& endpoint, const Stop& stop) {
+/// Resolves a host. A look-up can take half a minute and cannot be cancelled, so a stop abandons
+/// its thread.
+tl::expected<Addresses, LinkError> look_up(const Endpoint& endpoint, const StopRequests& stop) {
   std::packaged_task<Addresses()> task([host = endpoint.host, port = endpoint.port] {
     asio::io_context io(1);
     asio::error_code ignored;
@@ -42,7 +42,7 @@ tl::expected<Addresses, LinkError> look_up(const Endpoint& endpoint, const Stop&
                             endpoint.text, endpoint.host));
 }
 
-Opened open_tcp(const Endpoint& endpoint, const Budgets& budgets, const Stop& stop) {
+Opened open_tcp(const Endpoint& endpoint, const Budgets& budgets, const StopRequests& stop) {
   using asio::ip::tcp;
   const auto addresses = look_up(endpoint, stop);
   if (!addresses)
@@ -61,7 +61,7 @@ Opened open_tcp(const Endpoint& endpoint, const Budgets& budgets, const Stop& st
                                                       budgets.write, stop);
 }
 
-Opened open_once(const Endpoint& endpoint, const Budgets& budgets, const Stop& stop) {
+Opened open_once(const Endpoint& endpoint, const Budgets& budgets, const StopRequests& stop) {
   switch (endpoint.scheme) {
   case Scheme::Serial:
   case Scheme::Pty: return open_serial(endpoint, budgets, stop);
@@ -77,7 +77,7 @@ Opened open_once(const Endpoint& endpoint, const Budgets& budgets, const Stop& s
 
 } // namespace
 
-Opened open(const Endpoint& endpoint, const Budgets& budgets, const Stop& stop,
+Opened open(const Endpoint& endpoint, const Budgets& budgets, const StopRequests& stop,
             const OnBleStep& on_step, const OnBlePeer& on_peer) {
   if (endpoint.scheme == Scheme::Ble) {
     auto opened = open_ble(make_bluez_gatt(endpoint), budgets, stop, on_step, on_peer);
@@ -85,7 +85,7 @@ Opened open(const Endpoint& endpoint, const Budgets& budgets, const Stop& stop,
       return tl::unexpected(describe_open_error(endpoint, opened.error()));
     return *std::move(opened);
   }
-  // Only a radio link fails now and works a moment later: the ball may be waking up.
+  // Only a radio link can fail now and work a moment later: the ball may be waking up.
   const auto times = endpoint.scheme == Scheme::Rfcomm ? budgets.opens : 1;
   auto opened = open_once(endpoint, budgets, stop);
   for (int time = 1; !opened && stop() == 0 && time < times; ++time) {

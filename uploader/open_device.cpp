@@ -1,4 +1,4 @@
-// The devices of Unix: serial ports, ptys, sockets of Bluetooth.
+// Devices on Unix: serial ports, ptys, Bluetooth sockets.
 
 #include "spec/serial.h"
 #include "uploader/asio_transport.h"
@@ -16,7 +16,7 @@ namespace {
 
 constexpr int rfcomm_protocol = 3; // BTPROTO_RFCOMM
 
-/// Whether a device is the slave of a pty. Source: Linux, admin-guide/devices.txt
+/// Returns true if the device is the slave of a pty. Source: Linux, admin-guide/devices.txt
 bool is_pty(int handle) {
   constexpr unsigned first = 136, last = 143; // major numbers
   struct stat status {};
@@ -24,9 +24,9 @@ bool is_pty(int handle) {
          major(status.st_rdev) >= first && major(status.st_rdev) <= last;
 }
 
-/// Keeps others off. TIOCEXCL does not stop root and flock only stops those who ask: together they
-/// do. On a pty TIOCEXCL would outlive its client and lock everybody out for as long as the other
-/// end is open.
+/// Keeps other programs out. TIOCEXCL does not stop root, and flock stops only programs that ask,
+/// so use both. Not TIOCEXCL on a pty: it would outlive the client and lock everybody out while the
+/// other end is open.
 bool lock(int handle) {
   return ::flock(handle, LOCK_EX | LOCK_NB) == 0 &&
          (is_pty(handle) || ::ioctl(handle, TIOCEXCL) == 0);
@@ -34,8 +34,8 @@ bool lock(int handle) {
 
 } // namespace
 
-/// A line discipline would turn LF into CR LF and eat XON and XOFF.
-Opened open_serial(const Endpoint& endpoint, const Budgets& budgets, const Stop& stop) {
+/// Disables the line discipline, which would turn LF into CR LF and consume XON and XOFF.
+Opened open_serial(const Endpoint& endpoint, const Budgets& budgets, const StopRequests& stop) {
   auto io = std::make_unique<asio::io_context>(1);
   asio::serial_port port(*io);
   asio::error_code error;
@@ -55,14 +55,14 @@ Opened open_serial(const Endpoint& endpoint, const Budgets& budgets, const Stop&
   if (::tcsetattr(handle, TCSANOW, &settings) != 0)
     return tl::unexpected(describe_open_error(endpoint, errno));
   port.set_option(asio::serial_port::baud_rate(spec::serial_baud_rate),
-                  error); // a pty may not care
-  // What waits to be sent on a pty is what the client before has said, not noise of a radio.
+                  error); // a pty may ignore it
+  // On a pty, keep pending output: it belongs to the client before, and is not radio noise.
   ::tcflush(handle, is_pty(handle) ? TCIFLUSH : TCIOFLUSH);
   return std::make_unique<AsioTransport<asio::serial_port>>(std::move(io), std::move(port),
                                                             budgets.write, stop);
 }
 
-Opened open_rfcomm(const Endpoint& endpoint, const Budgets& budgets, const Stop& stop) {
+Opened open_rfcomm(const Endpoint& endpoint, const Budgets& budgets, const StopRequests& stop) {
   using Protocol = asio::generic::stream_protocol;
   auto io = std::make_unique<asio::io_context>(1);
   Protocol::socket socket(*io);

@@ -1,4 +1,4 @@
-// The devices of Windows: COM ports. A paired ball has one.
+// Devices on Windows: COM ports. A paired ball has one.
 
 #include "spec/serial.h"
 #include "uploader/asio_transport.h"
@@ -8,7 +8,7 @@
 namespace orb::uploader {
 namespace {
 
-/// The name by which Windows opens a port of any number.
+/// Returns the name by which Windows opens a port of any number.
 std::string full_name(const std::string& path) {
   constexpr std::string_view device = R"(\\.\)";
   return path.starts_with(device) ? path : std::string(device) + path;
@@ -16,8 +16,8 @@ std::string full_name(const std::string& path) {
 
 } // namespace
 
-/// Windows opens a port for one program only. Asio sets it to bytes without translation.
-Opened open_serial(const Endpoint& endpoint, const Budgets& budgets, const Stop& stop) {
+/// Windows opens a port for one program only, and Asio sets it to untranslated bytes.
+Opened open_serial(const Endpoint& endpoint, const Budgets& budgets, const StopRequests& stop) {
   if (endpoint.scheme == Scheme::Pty)
     return tl::unexpected(describe_open_error(endpoint, ENOENT));
   auto io = std::make_unique<asio::io_context>(1);
@@ -37,7 +37,7 @@ Opened open_serial(const Endpoint& endpoint, const Budgets& budgets, const Stop&
                                                             budgets.write, stop);
 }
 
-Opened open_rfcomm(const Endpoint& endpoint, const Budgets&, const Stop&) {
+Opened open_rfcomm(const Endpoint& endpoint, const Budgets&, const StopRequests&) {
   return tl::unexpected(describe_open_error(endpoint, EAFNOSUPPORT));
 }
 

@@ -15,10 +15,10 @@ using protocol::make_command;
 using spec::ApiCommand;
 using spec::Limit;
 
-/// A piece is shortened at most this much to be safe against a change of DLEN: each of its 8 bits
-/// forbids one sequence number for a length.
+/// How much a piece may be shortened to survive a change of DLEN: each of its 8 bits excludes one
+/// sequence number per length.
 constexpr std::size_t shortened_most = 9;
-constexpr int seq_moves_most = 8; ///< pings that move the sequence number on instead
+constexpr int seq_moves_most = 8; ///< or pings that advance the sequence number
 
 tl::unexpected<PlanError> impossible(std::string message) {
   return tl::unexpected(PlanError{std::move(message)});
@@ -47,15 +47,15 @@ std::size_t piece_most(const Step& step) {
   return spec::max_payload - step.data.size();
 }
 
-/// How many packets carry the content, each shorter by `shortened` than it could be.
+/// The number of packets for the content if each is shorter by `shortened` than possible.
 std::size_t pieces_of(const Step& step, std::size_t shortened) {
   const auto size = piece_most(step) - shortened;
   return step.cuts.empty() ? (step.content.size() + size - 1) / size : step.cuts.size();
 }
 
-// The time by which all is over.
+// The deadline.
 
-/// One packet that must arrive exactly once.
+/// For a packet that must arrive exactly once.
 Duration once_time(const Budgets& budgets) {
   return (1 + budgets.resends) * (budgets.send + budgets.answer) +
          budgets.backoffs(1 + budgets.resends);
@@ -82,11 +82,11 @@ Duration step_time(const Step& step, const Budgets& budgets) {
   return {};
 }
 
-/// The greeting, then the steps up to the barrier as often as they are tried, the others once, and
-/// an abort at the end.
+/// The sum of the greeting, the steps up to the barrier for each attempt, the other steps once, and
+/// a final abort.
 Duration deadline(const Plan& plan, const Budgets& budgets) {
   constexpr int greeting_questions = 3;
-  constexpr int counting_questions = 8; // whether the ball counts at all, and as we do
+  constexpr int counting_questions = 8; // does the ball count packets, and as we do?
   auto time = budgets.open() + budgets.drain + budgets.backoffs(plan.attempts) +
               (greeting_questions + 1) * budgets.ask();
   auto times = plan.attempts;
@@ -100,8 +100,8 @@ Duration deadline(const Plan& plan, const Budgets& budgets) {
   return time;
 }
 
-/// What the link makes of the plan: each packet waits for its answer, on a link in pieces each
-/// piece for its receipt, too.
+/// Estimates the time on this link: each packet waits for its answer and, on a link with pieces,
+/// each piece for its acknowledgement.
 void estimate(Plan& plan, const Budgets& budgets) {
   const auto sent = packets(plan, 0);
   plan.expected = budgets.drain + static_cast<int>(sent.size()) * budgets.round_trip;
@@ -170,8 +170,8 @@ std::optional<PlanError> misfit(Route route, const MacroImage& image, std::size_
   return std::nullopt;
 }
 
-/// A macro in pieces of whole commands with id and flags in front of each, and Stream End after
-/// the last where the macro has none. An error where a comment is longer than a piece.
+/// Splits a macro into pieces of whole commands, each preceded by id and flags. Appends Stream End
+/// if it is missing. Fails if a comment is longer than a piece.
 tl::expected<Step, PlanError> stream_step(MacroImage image) {
   const auto listing = protocol::decode_macro_body(image.body);
   if (listing.error)
@@ -203,7 +203,7 @@ tl::expected<Step, PlanError> stream_step(MacroImage image) {
   return step;
 }
 
-/// The step that brings the macro itself.
+/// Returns the step that transfers the macro itself.
 tl::expected<Step, PlanError> bring(Route route, const MacroImage& image) {
   switch (route) {
   case Route::TemporaryPacket:
@@ -214,7 +214,7 @@ tl::expected<Step, PlanError> bring(Route route, const MacroImage& image) {
   case Route::StreamedMacro: return stream_step(image);
   case Route::Ram:
   case Route::RamThenFlash:
-  case Route::FlashDirectly: break; // programs
+  case Route::FlashDirectly: break; // used for programs only
   }
   return Step{};
 }
@@ -295,7 +295,7 @@ ByteView next_piece(const Step& step, std::size_t sent, std::size_t piece, std::
   for (auto size = most; size > 0 && size + shortened_most >= most; --size)
     if (!survives_shorter(make_command(step.command, piece_data(step, rest.first(size)), seq)))
       return rest.first(size);
-  return rest.first(most); // the session moves the sequence number on instead
+  return rest.first(most); // the session advances the sequence number instead
 }
 
 tl::expected<Plan, PlanError> make_plan(const ProgramJob& job, const Capabilities& ball,
@@ -360,7 +360,7 @@ std::vector<Command> packets(const Plan& plan, std::uint8_t seq) {
   std::vector<Command> out;
   const auto add = [&](ApiCommand command, const Bytes& data) {
     auto packet = make_command(command, data, seq);
-    while (survives_shorter(packet)) { // numbered as a session does it
+    while (survives_shorter(packet)) { // skip the same numbers as a session
       out.push_back(make_command(ApiCommand::Ping, {}, seq));
       packet.seq = ++seq;
     }

@@ -19,8 +19,8 @@ tl::unexpected<NoAnswer> link_failed(const protocol::LinkError& error) {
   return tl::unexpected(NoAnswer{NoAnswer::Kind::Link, error});
 }
 
-/// The least and the most payload of an answer "OK". A command without fields in its answer gets
-/// exactly none, which tells a Simple Response from the echo of a command; records may grow.
+/// Returns the least and greatest payload of an answer "OK". A command whose answer has no fields
+/// gets exactly none, which tells a Simple Response from the echo of a command; records may grow.
 std::pair<std::size_t, std::size_t> answer_sizes(ApiCommand command) {
   std::size_t least = 0;
   const auto fields = spec::answer(command);
@@ -70,10 +70,10 @@ tl::expected<void, NoAnswer> Session::drain() {
 
 tl::expected<void, NoAnswer> Session::send(ApiCommand command, const Bytes& data) {
   auto packet = protocol::make_command(command, data, next_seq_);
-  while (survives_shorter(packet)) { // a ping never does; at most 8 sequence numbers do
+  while (survives_shorter(packet)) { // never true of a ping, and at most for 8 sequence numbers
     const auto kept = also_;
     also_.reset();
-    const auto moved = exchange(ApiCommand::Ping, {}); // a lost one costs nothing but time
+    const auto moved = exchange(ApiCommand::Ping, {}); // a lost ping costs only time
     also_ = kept;
     if (!moved && moved.error().kind == NoAnswer::Kind::Link)
       return tl::unexpected(moved.error());
@@ -100,7 +100,7 @@ bool Session::awaited(const Item& item) const {
     return false;
   if (item.seq == current_)
     return true;
-  // An answer to an earlier sending of the same harmless command is as good.
+  // The answer to an earlier attempt of the same harmless command counts, too.
   return ok && also_.test(item.seq);
 }
 
@@ -130,7 +130,7 @@ void Session::take_in(const Item& item) {
   }
 }
 
-/// Everything that has been fed: the bytes live no longer than this call.
+/// Takes all items at once, because the bytes live no longer than this call.
 void Session::take_in() {
   while (const auto item = decoder_.next())
     take_in(*item);
@@ -150,7 +150,7 @@ tl::expected<std::optional<protocol::Response>, NoAnswer> Session::receive(Insta
     decoder_.feed(*read);
     take_in();
     if (!answer_ && now() >= deadline) {
-      // Half a packet that was damaged into a longer one may hide the answer.
+      // A damaged, apparently longer packet may hide the answer.
       decoder_.expire();
       take_in();
       break;
@@ -197,7 +197,7 @@ tl::expected<protocol::Response, NoAnswer> Session::ask(ApiCommand command, cons
     last = answer;
   }
   also_.reset();
-  return last; // a ball that only ever says "damaged" or "busy" has answered after all
+  return last; // a ball that says only "damaged" or "busy" has answered after all
 }
 
 tl::expected<void, NoAnswer> Session::listen(Instant deadline,

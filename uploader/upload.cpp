@@ -15,7 +15,7 @@ double seconds(Duration duration) {
   return static_cast<double>(duration.count()) / 1e9;
 }
 
-/// A battery that might not last through a write to flash.
+/// Refuses a battery that might not last through a flash write.
 std::optional<Report> check_battery(const Greeting& greeting, BatteryPolicy policy) {
   const auto state = greeting.power_state();
   if (policy == BatteryPolicy::Ignore ||
@@ -28,7 +28,7 @@ std::optional<Report> check_battery(const Greeting& greeting, BatteryPolicy poli
                 0};
 }
 
-/// Why nothing that answers like a ball is there, from what was heard.
+/// Explains from what was received why no ball answered.
 std::string no_ball(const Session& session, const NoAnswer& failure) {
   const auto& counts = session.counts();
   if (failure.kind == NoAnswer::Kind::Link)
@@ -72,9 +72,9 @@ Report lost(const Session& session, ApiCommand command, const NoAnswer& failure,
           0};
 }
 
-// A piece arrives once with (1−d)(1−q)² or d·2q(1−q)², and twice with one of its answers lost, so
-// that it looks like once, with d(1−q)²·2q(1−q); whatever else happens to it starts the upload
-// over.
+// A piece arrives once with probability (1−d)(1−q)² or d·2q(1−q)². It arrives twice, with one of
+// its answers lost so that it looks like once, with d(1−q)²·2q(1−q). Everything else restarts the
+// upload.
 double unseen_bound(std::size_t pieces, double doubled, double lost) {
   const auto arrives = (1 - lost) * (1 - lost);
   const auto once = (1 - doubled) * arrives + doubled * 2 * lost * arrives;
@@ -156,13 +156,13 @@ tl::expected<Greeting, Report> greet(Session& session) {
 
 namespace {
 
-/// Whether a command changes nothing about the ball.
+/// Returns true if a command only queries the ball.
 bool only_asks(ApiCommand command) {
   const auto name = spec::info(command).name;
   return command == ApiCommand::Ping || name.starts_with("get-") || name.starts_with("poll-");
 }
 
-/// What is known of the ball where a command was sent and no answer came.
+/// Describes the ball after a command without answer.
 std::string after_silence(ApiCommand command) {
   if (only_asks(command))
     return "the ball is unchanged";
@@ -227,7 +227,7 @@ Report commit(Session& session, const Greeting& greeting, BatteryPolicy battery)
 
 namespace {
 
-/// What can be seen to go wrong with any of it before anything is sent.
+/// Finds problems that are foreseeable before anything is sent.
 std::optional<Report> foresee(const Session& session, const Delivery& delivery,
                               const Greeting& greeting, BatteryPolicy battery) {
   const auto impossible = [](const std::string& name, const std::string& why) {

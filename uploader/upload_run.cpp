@@ -16,7 +16,7 @@ bool is_program(Route route) {
   return route == Route::Ram || route == Route::RamThenFlash || route == Route::FlashDirectly;
 }
 
-/// `RAM holds part of the program`: what is where, for the end of a message.
+/// Describes what is stored where, to end a message: `RAM holds part of the program`.
 std::string describe(Content content, Route route) {
   const auto committed = route == Route::RamThenFlash;
   const std::string_view place = route == Route::FlashDirectly ? "flash" : "RAM";
@@ -48,13 +48,13 @@ std::string describe(Content content, Route route) {
   return {};
 }
 
-/// What a second answer means: a piece stored twice, or nothing, as for a start, of which the ball
-/// refuses the second.
+/// Meaning of a second answer: a piece stored twice; or nothing, for example after a second start,
+/// which the ball refuses.
 enum class Duplicates : std::uint8_t { Matter, DoNotMatter };
 
-/// Sends one packet that must be carried out exactly once. `data` makes it for the sequence number
-/// that comes next, so that a resend can be cut differently. An answer other than OK is returned
-/// only where sending again does not help.
+/// Sends a packet that must be executed exactly once. `data` makes the payload for the next
+/// sequence number, so that a repetition can be cut differently. Returns an answer other than OK
+/// only if repeating does not help.
 template <class MakeData>
 tl::expected<std::optional<Response>, NoAnswer>
 send_once(Session& session, ApiCommand command, Duplicates duplicates, const MakeData& data) {
@@ -83,7 +83,7 @@ bool is_error(const protocol::Async& message) {
   return is(message, spec::AsyncId::BasicError);
 }
 
-/// Whether a message shows that a program runs, or ran until now.
+/// Returns true if the message shows that a program runs or has run.
 bool is_sign_of_life(const protocol::Async& message) {
   return is_error(message) || is(message, spec::AsyncId::BasicPrint) ||
          is(message, spec::AsyncId::BasicErrorText);
@@ -106,7 +106,7 @@ tl::expected<void, NoAnswer> await_start(Session& session) {
 tl::expected<void, NoAnswer> brake(Session& session) {
   const std::pair<ApiCommand, Bytes> steps[] = {
       {ApiCommand::SetRawMotorValues, Bytes(4, 0)}, // switches stabilization off
-      {ApiCommand::SetStabilization, {1}},          // without which a roll is ignored
+      {ApiCommand::SetStabilization, {1}},          // without it a roll is ignored
       {ApiCommand::Roll, Bytes(4, 0)}};
   for (const auto& [command, data] : steps)
     if (const auto answer = session.ask(command, data); !answer)
@@ -218,7 +218,7 @@ tl::expected<std::optional<Upload::Count>, NoAnswer> Upload::ask_count(ApiComman
     return tl::unexpected(answer.error());
   if (const auto pong = session_.ask(ApiCommand::Ping); !pong)
     return tl::unexpected(pong.error());
-  return std::nullopt; // silent to this command alone
+  return std::nullopt; // this command alone is not answered
 }
 
 Upload::Ended Upload::count(const Step& step) {
@@ -235,7 +235,7 @@ Upload::Ended Upload::count(const Step& step) {
 }
 
 tl::expected<bool, NoAnswer> Upload::count_fits(ApiCommand command) {
-  constexpr int trials = 7; // on a link that loses and doubles 10 % three pairs in four fit
+  constexpr int trials = 7; // on a link that loses and doubles 10 %, three pairs in four fit
   auto earlier = *before_;
   for (int trial = 0; trial < trials; ++trial) {
     const auto later = ask_count(command);
@@ -314,7 +314,7 @@ Report Upload::stopped(Report report) {
 
 Upload::Ended Upload::barrier(const Step& step) {
   show(Stage::Confirming);
-  // Where flash is meant, what is in RAM does not matter yet.
+  // If the target is flash, RAM content does not count yet.
   const auto committed = plan_.route == Route::RamThenFlash;
   content_ = committed ? Content::Incomplete : Content::Unconfirmed;
   if (!before_) {
@@ -356,7 +356,7 @@ Upload::Ended Upload::store(const Step& step) {
     content_ = Content::Stored;
   status_.bytes_sent = status_.bytes_total;
   status_.packets = status_.packets_total;
-  session_.watch_duplicates(); // those until now did no harm
+  session_.watch_duplicates(); // earlier duplicates were harmless
   return ended;
 }
 
@@ -377,8 +377,8 @@ Upload::Ended Upload::save_user_macro(const Step& step) {
   content_ = Content::Unconfirmed;
   if (!first)
     return tl::unexpected(lose(step.command, first.error()));
-  // The answer is lost. Sent again, OK says that the first did not arrive; "exists" says that it
-  // did, provided that the id was free.
+  // The answer is lost. On repeating, OK means that the first did not arrive; "exists" means that
+  // it did, provided the id was free.
   const auto second = save();
   const auto exists = second && *second && retry_of((*second)->code) == Retry::Later;
   if ((second && *second && is_ok(**second)) || (exists && id_was_free))
@@ -395,7 +395,7 @@ Upload::Ended Upload::start(const Step& step) {
   auto& inbox = session_.inbox();
   if (const auto settled = session_.listen(session_.now() + session_.budgets().settle); !settled)
     return tl::unexpected(lose(step.command, settled.error()));
-  inbox.clear(); // what ran before has said its last
+  inbox.clear(); // what ran before sends no more
   const auto answer =
       send_once(session_, step.command, Duplicates::DoNotMatter, [&] { return step.data; });
   if (answer && *answer && is_ok(**answer))

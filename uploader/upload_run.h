@@ -16,24 +16,25 @@ inline bool is_interruption(const NoAnswer& failure) {
   return failure.kind == NoAnswer::Kind::Link && failure.link.kind == LinkError::Kind::Interrupted;
 }
 
-/// What the ball refused and why, with what is on it now (`state`) and the remedy.
+/// Returns what the ball refused and why, what is on it now (`state`) and the remedy.
 Report refused(ApiCommand command, const Response& response, Content content,
                std::string_view state);
 
-/// No answer, or none but "damaged"; Kind::Interrupted where the user stopped it.
+/// Returns the report for a missing answer or only "damaged" ones; Kind::Interrupted if the user
+/// stopped it.
 Report lost(const Session& session, ApiCommand command, const NoAnswer& failure, Content content,
             std::string_view state);
 
-/// Carries a plan out and knows what is on the ball at each moment.
+/// Executes a plan and tracks what is on the ball.
 class Upload {
 public:
   Upload(Session& session, const Plan& plan, Progress& progress);
 
-  /// Walks the steps, from the first again where the content may have arrived otherwise than once.
+  /// Executes the steps. Restarts from the first if the content may not have arrived exactly once.
   Report run(std::string done);
 
 private:
-  /// What came of a step: a report where the upload ends with it.
+  /// Result of a step; a report ends the upload.
   enum class Sent : std::uint8_t { Whole, StartOver };
   using Ended = tl::expected<Sent, Report>;
   using Answer = tl::expected<std::optional<Response>, NoAnswer>;
@@ -42,7 +43,7 @@ private:
 
   std::optional<Report> begin_again();
 
-  // What is told.
+  // Reports.
 
   void show(Stage stage);
 
@@ -54,12 +55,12 @@ private:
 
   // Before the content.
 
-  /// Sends a harmless command until it is answered.
+  /// Repeats a harmless command until answered.
   Ended ask(const Step& step, Content if_refused);
 
   Ended erase(const Step& step);
 
-  /// How many whole packets the ball says it has received, and how many we know of.
+  /// Packets received by the ball's count, and packets known to have arrived.
   struct Count {
     std::uint32_t received = 0;
     std::uint32_t arrived = 0;
@@ -69,32 +70,32 @@ private:
     }
   };
 
-  /// Nothing where the ball does not say.
+  /// Returns nullopt if the ball does not count.
   tl::expected<std::optional<Count>, NoAnswer> ask_count(ApiCommand command);
 
   Ended count(const Step& step);
 
-  /// Whether the ball has received as many packets as it has answered since it was asked first. The
-  /// first time that it has not, it is asked until two counts fit: a ball that counts otherwise
-  /// than we do is not asked any more.
+  /// Returns true if the ball has received as many packets as it has answered since the first
+  /// count. At the first mismatch it counts until two counts fit; a ball that counts differently is
+  /// not asked again.
   tl::expected<bool, NoAnswer> count_fits(ApiCommand command);
 
   // The content.
 
   Ended append(const Step& step);
 
-  /// Sends the next piece, of a stream until the buffer of the ball has room for it.
+  /// Sends the next piece. For a stream, repeats until the ball's buffer has room.
   Answer offer(const Step& step, std::size_t& sent);
 
-  /// A piece without an answer: what is stored is not known. A program is sent again from the
-  /// start; a macro is thrown away, as it may be playing.
+  /// Handles a piece without an answer: the stored content is uncertain. A program is sent again
+  /// from the start; a macro is aborted, because it may be playing.
   Ended unanswered(ApiCommand command, const Answer& answer);
 
-  /// The report, after a macro that has arrived in part has been aborted.
+  /// Aborts a macro that has arrived in part, and returns the report.
   Report stopped(Report report);
 
-  /// Waits until all answers of the ball have come through. A second one among them, or another
-  /// number of packets in the ball than were answered, says that a piece may be there twice.
+  /// Waits until all answers of the ball have arrived. A duplicate answer, or a count that differs
+  /// from the number of answers, means that a piece may be stored twice.
   Ended barrier(const Step& step);
 
   Ended doubled();
@@ -107,7 +108,7 @@ private:
 
   Ended start(const Step& step);
 
-  /// Whether what was started without an answer shows that it runs.
+  /// Returns true if something started without an answer shows that it runs.
   bool runs(const Step& step);
 
   Session& session_;
@@ -115,9 +116,10 @@ private:
   Progress& progress_;
   Status status_;
   Content content_ = Content::Unchanged;
-  std::size_t uncounted_ = 0;   ///< pieces of which only the answers are known
-  std::optional<Count> before_; ///< the content
-  enum class Trust : std::uint8_t { NotYet, Yes, No } trust_ = Trust::NotYet; ///< in its counting
+  std::size_t uncounted_ = 0;   ///< pieces known only by their answers
+  std::optional<Count> before_; ///< the count before the content
+  /// In the ball's count.
+  enum class Trust : std::uint8_t { NotYet, Yes, No } trust_ = Trust::NotYet;
 };
 
 } // namespace orb::uploader

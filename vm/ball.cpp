@@ -104,7 +104,7 @@ Bytes Ball::take_output() {
 
 // Time.
 
-/// When something but motion and the program is due.
+/// The next event other than motion and the program.
 Instant Ball::next_of_others() const {
   Instant next = std::min({drive_.next_event(), watch_at_, power_.next_event(body_, settings_),
                            dispatcher_.next_event()});
@@ -117,8 +117,8 @@ Instant Ball::next_of_others() const {
   return std::min({next, macros_.next_event(), streamer_.next_event()});
 }
 
-/// The next step that may lead to something. The battery is looked at after each step from the
-/// last one before it may change.
+/// The next step that may have an effect. Steps before the battery can change state have none; from
+/// then on every step checks the battery.
 Instant Ball::next_step_of_note() const {
   if (asleep() || !body_.rolls_freely() || power_.sleeps_soon(now_))
     return next_step();
@@ -126,7 +126,7 @@ Instant Ball::next_step_of_note() const {
   return std::max(body_.next_step(), holds - holds.time_since_epoch() % Body::step);
 }
 
-/// Moves a body that is advanced late to where it is by now.
+/// Brings a body that was left behind, because nothing could happen to it, up to now.
 void Ball::catch_up() {
   if (body_.rolls_freely() && body_.next_step() <= now_)
     body_.advance_to(now_);
@@ -148,10 +148,18 @@ void Ball::advance_until_quiet(Instant target, Halt halt) {
   advance(target, Until::Quiet, halt);
 }
 
+void Ball::advance_until_output(Instant target, Halt halt) {
+  advance(target, Until::Output, halt);
+}
+
 void Ball::advance(Instant target, Until until, Halt halt) {
   programs_.let_go();
   calm_until_ = {};
   for (;;) {
+    if (until == Until::Output && link_.next_event() <= now_) {
+      catch_up();
+      return;
+    }
     if (until == Until::Quiet) {
       if (!idle())
         idle_since_.reset();
@@ -161,7 +169,7 @@ void Ball::advance(Instant target, Until until, Halt halt) {
         catch_up();
         return;
       }
-      if (idle_since_) // only output has to leave
+      if (idle_since_) // only output is left to send
         target = std::min(target, link_.drained_to(0, now_));
     }
     const Instant others = next_of_others();
@@ -209,8 +217,8 @@ bool Ball::idle() const {
          !macros_.running() && power_.wake_at() == never && !power_.falls_asleep();
 }
 
-/// Moves on to the target, up to which nothing but motion is due, or to what motion causes. Whether
-/// nothing came of it.
+/// Advances to the target, or to the first event that motion causes. The caller guarantees that
+/// only motion is due until then. Returns true if motion caused nothing.
 bool Ball::pass(Instant target) {
   now_ = std::max(now_, body_.advance_to(target));
   rest_unseen_ = was_moving_ && !body_.moving();
@@ -221,7 +229,7 @@ bool Ball::pass(Instant target) {
 }
 
 void Ball::run_events(Instant others) {
-  // Motion goes on until something else happens, or until it causes something to happen.
+  // Motion continues until something else is due, or until it causes an event itself.
   now_ = std::max(now_, body_.advance_to(std::max(now_, others)));
   if (const auto impact = body_.take_impact()) {
     if (impact->wall)
@@ -236,7 +244,7 @@ void Ball::run_events(Instant others) {
   if (!asleep() && macros_.next_event() <= now_)
     macros_.advance_to(now_);
   if (macros_.held())
-    return; // the rest of this instant follows when it goes on
+    return; // the rest of this instant runs after the host lets go
   settle();
   if (!asleep())
     if (const auto full = streamer_.run(now_, body_))
@@ -272,7 +280,7 @@ void Ball::run_housekeeping() {
     power_.ask_to_sleep({});
 }
 
-/// What has come to its end since the last call takes effect.
+/// Applies the effects of what has finished since the last call.
 void Ball::settle() {
   finish_program();
   if (const auto macro = macros_.take_finished()) {
@@ -286,7 +294,7 @@ void Ball::settle() {
 }
 
 void Ball::finish_program() {
-  const auto stop = programs_.take_stop();
+  const auto stop = programs_.take_termination();
   if (!stop)
     return;
   if (stop->error) {

@@ -21,7 +21,7 @@ std::int32_t rounded(double value) {
   return static_cast<std::int32_t>(std::lround(value));
 }
 
-/// By variable.
+/// Scale of each variable.
 constexpr auto scales = [] {
   std::array<spec::Scale, spec::variables.size()> table;
   for (std::size_t i = 0; i < table.size(); ++i)
@@ -89,12 +89,12 @@ std::int32_t Ball::peek(Variable variable, Instant at) const {
 }
 
 std::optional<BasicError> Ball::Asks::OfProgram::write(Variable, std::int32_t value, Instant now) {
-  // `ctrl` is the one that programs may assign.
+  // `ctrl` is the only variable that programs may assign here.
   ball_.now_ = now;
   const bool rolled_freely = ball_.body_.rolls_freely();
   ball_.drive(Actor::Basic, value == 0 ? Stabilization::Off : Stabilization::On);
   if (rolled_freely && !ball_.body_.rolls_freely())
-    ball_.programs_.interrupt(); // from now on its steps count
+    ball_.programs_.interrupt(); // its steps count from now on
   return std::nullopt;
 }
 
@@ -147,7 +147,7 @@ std::optional<BasicError> Ball::Asks::OfProgram::perform(Statement statement,
     break;
   case Statement::Sleep: ball_.power_.ask_to_sleep({values[0], values[1], values[2]}); break;
   case Statement::Macrun:
-    ball_.run_macro(values[0]); // while one runs it has no effect
+    ball_.run_macro(values[0]); // no effect while a macro runs
     break;
   case Statement::Mackill:
     ball_.macros_.abort(now);
@@ -174,7 +174,7 @@ std::optional<BasicError> Ball::Asks::OfProgram::perform(Statement statement,
   case Statement::Rstr:
   case Statement::Read:
   case Statement::Tron:
-  case Statement::Troff: break; // the machine's own
+  case Statement::Troff: break; // the machine handles these itself
   }
   return std::nullopt;
 }

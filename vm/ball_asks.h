@@ -1,6 +1,6 @@
 #pragma once
 
-// For vm/ball*.cpp only: how a ball answers those who live in it.
+// Private to vm/ball*.cpp: answers the requests of programs, macros and clients.
 
 #include "vm/api/api_host.h"
 #include "vm/ball.h"

@@ -1,4 +1,4 @@
-// What happens to a ball from outside, and what it tells.
+// Events from outside, and the events that a ball reports.
 
 #include "vm/ball.h"
 
@@ -60,9 +60,9 @@ void Ball::apply(const Stimulus& stimulus) {
   watch_motion();
 }
 
-// Elsewhere.
+// A remote robot as the body.
 
-void Ball::become(Elsewhere& robot) {
+void Ball::become(RemoteBody& robot) {
   body_.become(robot);
   lamps_.become(robot);
 }
@@ -116,19 +116,19 @@ void Ball::check_battery() {
   dispatcher_.on_battery();
 }
 
-/// It is asked seldom, because it drains slowly.
+/// The battery drains slowly, so it is checked only when it can have changed state.
 void Ball::watch_battery() {
   if (now_ >= power_.battery_holds_until())
     check_battery();
 }
 
-// Asks.
+// Requests.
 
 void Ball::change(const Settings& settings) {
   const bool other_timeout = settings.inactivity_timeout != settings_.inactivity_timeout;
   settings_ = settings;
   if (other_timeout)
-    stay_awake(); // the new time counts from now
+    stay_awake(); // the new timeout counts from now
   body_.set_vector_drive(settings_.has(spec::permanent_option_flags::vector_drive) ? Switch::On
                                                                                    : Switch::Off);
   drive_.settings_changed();
@@ -139,11 +139,6 @@ void Ball::change(const Settings& settings) {
 void Ball::restore(const Settings& settings, const Profile& profile) {
   dispatcher_.restore(profile);
   change(settings);
-}
-
-void Ball::abort_basic() {
-  programs_.abort();
-  finish_program();
 }
 
 MacroOutcome Ball::run_macro(int id) {
@@ -247,7 +242,7 @@ void Ball::wake() {
     run_macro(plan.macro);
   if (plan.line != 0)
     execute_basic(Area::Flash, plan.line);
-  power_.awake(); // only now: in between the ball is not idle
+  power_.awake(); // set last: the ball must not look idle in between
 }
 
 } // namespace orb::vm

@@ -38,7 +38,7 @@ Bytes BallTransport::take_output() {
   return out;
 }
 
-/// Moves what has arrived at either end by now.
+/// Delivers everything that has arrived at either end by now.
 void BallTransport::exchange() {
   while (!to_ball_.empty() && to_ball_.front().due <= now()) {
     if (robot_ != nullptr)

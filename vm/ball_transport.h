@@ -9,20 +9,20 @@
 
 namespace orb::vm {
 
-/// The wire between a client and a ball in the same process.
+/// Timing of the wire between a client and a ball in the same process.
 struct WireModel {
-  Duration round_trip{}; ///< half of it each way
+  Duration round_trip{}; ///< half of it in each direction
   std::uint32_t bytes_per_second =
-      spec::ball::wire_bytes_per_second; ///< to the ball; it paces its own output
+      spec::ball::wire_bytes_per_second; ///< to the ball; the ball paces its own output
 };
 
 /// The link `sim:`: a client's end of a wire to a ball in this process. Time is virtual: waiting
-/// costs nothing, and the ball lives exactly as long as the client waits.
+/// costs nothing, and the ball advances exactly as long as the client waits.
 class BallTransport final : public protocol::Transport {
 public:
   /// Connects to the ball, which must outlive the transport.
   explicit BallTransport(Ball& ball, const WireModel& wire = {});
-  /// The same to a robot of packets v2 that the ball is.
+  /// Connects to a robot with packets v2. `ball` is the robot's body.
   BallTransport(Ball& ball, RobotV2& robot, const WireModel& wire = {});
   ~BallTransport() override;
   BallTransport(const BallTransport&) = delete;
@@ -30,7 +30,7 @@ public:
 
   Instant now() const override { return ball_.now(); }
   tl::expected<void, protocol::LinkError> write(ByteView bytes) override;
-  /// With the deadline `never` it returns nothing once the ball is at rest.
+  /// Returns nothing if the deadline is `never` and the ball is at rest.
   tl::expected<Bytes, protocol::LinkError> read(Instant deadline) override;
 
 private:

@@ -3,7 +3,7 @@
 namespace orb::vm {
 namespace {
 
-/// Whether it is a motion command in the sense of the motion time-out.
+/// Returns true for motions that restart the motion time-out.
 bool sets_in_motion(const Motion& motion) {
   return std::holds_alternative<Roll>(motion) || std::holds_alternative<Rotate>(motion) ||
          std::holds_alternative<Motors>(motion) || std::holds_alternative<SetSpeed>(motion);

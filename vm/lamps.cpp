@@ -42,7 +42,7 @@ Color Lamps::deciding(const Situation& situation) const {
   return color_of(Actor::Client).value_or(situation.user_color);
 }
 
-void Lamps::become(Elsewhere& robot) {
+void Lamps::become(RemoteBody& robot) {
   robot_ = &robot;
 }
 

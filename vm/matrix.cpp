@@ -12,7 +12,7 @@ namespace {
 
 constexpr int matrix_side = Matrix::side;
 constexpr int fastest = 30; // frames a second
-constexpr int word_gap = 3; // columns of a blank
+constexpr int word_gap = 3; // columns of a space
 
 bool is_on_matrix(int at) {
   return at >= 0 && at < matrix_side;
@@ -26,7 +26,7 @@ Duration step_of(int frames_per_second) {
   return frames_per_second <= 0 ? Duration{} : Duration{1s} / std::min(frames_per_second, fastest);
 }
 
-/// The columns of a character from the left, the lowest lamp in the lowest bit.
+/// Returns the columns of a character, from the left; bit 0 is the lowest lamp.
 std::vector<std::uint8_t> columns_of(char character) {
   const char known = character < font::first || character > font::last ? '?' : character;
   const int place = known - font::first;
@@ -53,7 +53,7 @@ void draw_column(Matrix::Pixels& picture, int x, std::uint8_t column, Color colo
       picture[index_of(x, y)] = color;
 }
 
-/// `part` of `parts` on the way from one colour to the other.
+/// Mixes two colours: `part` of `parts` of the way from the first to the second.
 Color between(Color from, Color to, int part, int parts) {
   const auto mix = [&](int a, int b) {
     return static_cast<std::uint8_t>(a + (b - a) * part / parts);
@@ -61,8 +61,8 @@ Color between(Color from, Color to, int part, int parts) {
   return {mix(from.red, to.red), mix(from.green, to.green), mix(from.blue, to.blue)};
 }
 
-/// Into how many pictures a frame is cut that fades into the next: as many as come in its time at
-/// the fastest rate. [?]
+/// The number of pictures into which a fading frame is divided: as many as its time holds at the
+/// fastest rate. [?]
 int pictures_in_frame(int frames_per_second, bool fade) {
   return fade && frames_per_second > 0 ? std::max(fastest / frames_per_second, 1) : 1;
 }
@@ -76,7 +76,7 @@ void Matrix::show(const Pixels& picture) {
   constexpr int far = side - 1;
   for (int y = 0; y < side; ++y)
     for (int x = 0; x < side; ++x) {
-      // Where the lamp that shows at (x,y) was drawn.
+      // The lamp of the unrotated picture that shows at (x,y).
       const std::size_t from = quarters_ == 0   ? index_of(x, y)
                                : quarters_ == 1 ? index_of(far - y, x)
                                : quarters_ == 2 ? index_of(far - x, far - y)
@@ -100,7 +100,7 @@ void Matrix::line(int x1, int y1, int x2, int y2, Color color) {
   film_.reset();
   auto picture = picture_;
   const int steps = std::max({std::abs(x2 - x1), std::abs(y2 - y1), 1});
-  // Half a step is added before the division, so that each lamp is the nearest one.
+  // Add half a step before the division, to round to the nearest lamp.
   const auto at = [&](int from, int to, int step) {
     return (2 * (from * steps + (to - from) * step) + steps) / (2 * steps);
   };
@@ -143,7 +143,7 @@ void Matrix::rotate(int quarters) {
 // Playing.
 
 Matrix::Pixels Matrix::picture_of(const Text& text, std::int64_t step) const {
-  // At first the first column shows at the right edge, at last none does.
+  // In the first picture column 0 shows at the right edge, in the last one none does.
   Pixels picture{};
   const auto first = step - (side - 1);
   for (int x = 0; x < side; ++x)
@@ -176,7 +176,7 @@ Matrix::Pixels Matrix::picture_of(const Animation& animation, std::int64_t step)
   return picture;
 }
 
-/// Shows the first picture; what has no other does not play.
+/// Shows the first picture. A film of one picture does not play.
 void Matrix::begin(Film film) {
   film_ = std::move(film);
   show(std::visit([&](const auto& what) { return picture_of(what, 0); }, film_->what));
@@ -232,7 +232,7 @@ bool Matrix::play(int id, bool loop, Instant now) {
   }
   const int parts = pictures_in_frame(animation.frames_per_second, animation.fade);
   const auto frames = static_cast<std::int64_t>(animation.frames.size());
-  // One that is played once ends with its last frame, which fades into nothing.
+  // Played once, it ends with its last frame, which does not fade.
   const auto pictures = frames == 1 ? 1 : loop ? frames * parts : (frames - 1) * parts + 1;
   begin({animation, pictures, loop, step_of(animation.frames_per_second) / parts, now});
   return true;
@@ -257,7 +257,7 @@ void Matrix::pause(Instant now) {
     return;
   advance(now);
   if (!film_)
-    return; // it has just ended
+    return; // advance() has just ended it
   film_->paused = true;
   film_->played = now - film_->began;
 }

@@ -3,7 +3,7 @@
 #include "base/bytes.h"
 #include "base/time.h"
 #include "spec/robots.h"
-#include "vm/body/elsewhere.h"
+#include "vm/body/remote_body.h"
 
 #include <array>
 #include <cstdint>
@@ -15,82 +15,83 @@
 
 namespace orb::vm {
 
-/// Whether the robot has a matrix of lamps: it knows the command that sets one of them.
+/// Returns true if the robot has an LED matrix: it knows the command that sets one of its lamps.
 constexpr bool has_matrix(spec::Robot robot) {
   return spec::knows(spec::info(robot), spec::info(spec::V2Command::MatrixPixel));
 }
 
-/// The matrix of 8 × 8 lamps of a BOLT: what it shows, and what it plays by itself. It is told the
-/// time and keeps none.
+/// The matrix of 8 × 8 lamps of a BOLT: what it shows, and what it plays by itself. The caller
+/// supplies the time.
 ///
-/// x counts to the right, y upwards, so (0,0) is the lamp at the bottom left. Source: a client
-/// (spherov2.py, register_matrix_animation) hands over the rows of a frame from its lowest to its
-/// highest, and the first column in the highest bit. What a client can draw outside is drawn
-/// nowhere: a coordinate below 0 or above 7 lets the whole command do nothing.
+/// x grows to the right, y upwards, so (0,0) is the lamp at the bottom left. Source: a client
+/// (spherov2.py, register_matrix_animation) sends the rows of a frame from the lowest to the
+/// highest, with the first column in the highest bit. A command with a coordinate outside 0 to 7
+/// has no effect at all.
 ///
-/// What no document says: that drawing ends what plays, that an animation that has come to its end
-/// leaves its last frame, how it fades, and which way the picture turns [?].
+/// No document covers these: drawing ends what plays, a finished animation leaves its last frame,
+/// how frames fade, and which way the picture turns [?]. Large because each command for the matrix
+/// has its own member.
 class Matrix {
 public:
   static constexpr int side = 8;
-  /// Row by row from the bottom, each from the left.
+  /// Rows from the bottom, each from the left.
   using Pixels = std::array<Color, std::size_t{side} * side>;
 
   // Drawing.
   void fill(Color color);
   void pixel(int x, int y, Color color);
-  /// From one lamp to the other, both included.
+  /// Draws a line, both ends included.
   void line(int x1, int y1, int x2, int y2, Color color);
-  /// All lamps between two corners, in any order.
+  /// Fills a rectangle given by two corners in any order.
   void rectangle(int x1, int y1, int x2, int y2, Color color);
-  /// One character on a dark matrix; `?` for what is not printable ASCII.
+  /// Shows one character on a dark matrix; `?` if it is not printable ASCII.
   void character(Color color, char character);
-  /// Dark, and nothing plays.
+  /// Turns all lamps off and stops what plays.
   void clear();
-  /// The picture shows turned by so many quarters clockwise, from now on. [?]
+  /// Turns the picture by so many quarters clockwise, from now on. [?]
   void rotate(int quarters);
 
   // Playing.
-  /// A text comes in from the right, a column a step, and leaves to the left; then the matrix is
-  /// dark, or it comes in again. Steps a second, 0 to 30; with 0 its first column stands.
+  /// Scrolls a text from right to left, one column per step; then the matrix turns dark, or the
+  /// text repeats. Steps a second, 0 to 30; with 0 the first column stays at the right edge.
   void scroll(Color color, int frames_per_second, bool repeat, const std::string& text,
               Instant now);
-  /// 32 bytes, else it does nothing: for each bit of the pixels' palette index, the lowest first, 8
-  /// rows from the bottom, their left lamp in the highest bit.
+  /// Stores a frame of 32 bytes; other sizes have no effect. For each bit of the pixels' palette
+  /// index, the lowest first, there are 8 rows from the bottom, the left lamp in the highest bit.
   void save_frame(int index, ByteView bytes);
-  /// Frames a second, 0 to 30; with 0 the first frame stands. An index without a colour in the
-  /// palette is dark, and so is a frame that is not there.
+  /// Stores an animation. Frames a second, 0 to 30; with 0 it stays at the first frame. Palette
+  /// indexes without a colour and missing frames are dark.
   void save_animation(int id, int frames_per_second, bool fade, std::vector<Color> palette,
                       std::vector<int> frames);
-  /// False where there is none of that id.
+  /// Returns false if there is no animation of that id.
   bool play(int id, bool loop, Instant now);
-  /// One frame, in the colours of the animation that was saved or played last, else in greys. [?]
-  /// False where there is none of that index.
+  /// Shows one frame in the palette of the animation saved or played last, otherwise in greys. [?]
+  /// Returns false if there is no frame of that index.
   bool show_frame(int index);
-  /// What plays stands until resume().
+  /// Freezes what plays until resume().
   void pause(Instant now);
   void resume(Instant now);
-  /// Deletes animations and frames; what they show stays, and plays no more.
+  /// Deletes animations and frames and stops what plays. The picture stays.
   void forget();
-  /// The indexes of the frames that are kept, ascending.
+  /// The indexes of the stored frames, ascending.
   std::vector<int> frames() const;
-  /// Whether it changes by itself, now or once it is resumed.
+  /// Returns true if it changes by itself, now or once resumed.
   bool plays() const { return film_.has_value(); }
 
   // Time.
-  /// Shows what is due.
+  /// Shows the picture that is due.
   void advance(Instant now);
-  /// When it changes next by itself; `never` while nothing moves.
+  /// When it next changes by itself; `never` if nothing moves.
   Instant next_event() const;
 
-  /// As it shows, turned.
+  /// The picture as it shows, rotated.
   const Pixels& pixels() const { return shown_; }
 
 private:
   using Frame = std::array<std::uint8_t, std::size_t{side} * side>; ///< indexes into a palette
   struct Text {
     Color color;
-    std::vector<std::uint8_t> columns; ///< the lowest lamp in the lowest bit
+    std::vector<std::uint8_t> columns; ///< bit 0 is the lowest lamp
   };
   struct Animation {
     int frames_per_second = 0;
@@ -98,16 +99,16 @@ private:
     std::vector<Color> palette;
     std::vector<int> frames;
   };
-  /// What plays: pictures, one after the other.
+  /// A text or animation that plays, as a sequence of pictures.
   struct Film {
     std::variant<Text, Animation> what;
     std::int64_t pictures = 0;
     bool loops = false;
-    Duration step{}; ///< from one picture to the next; 0: the first stands
+    Duration step{}; ///< time per picture; 0: stays at the first
     Instant began{};
-    std::int64_t at = 0; ///< the picture that shows, counted from the start
+    std::int64_t at = 0; ///< index of the picture that shows, counted from the start
     bool paused = false;
-    Duration played{}; ///< when it was paused
+    Duration played{}; ///< time played before the pause
   };
 
   void show(const Pixels& picture);
@@ -116,18 +117,18 @@ private:
   Pixels picture_of(const Animation& animation, std::int64_t step) const;
   Pixels picture_of(int frame, const std::vector<Color>& palette) const;
 
-  Pixels picture_{}; ///< as it was drawn
+  Pixels picture_{}; ///< before rotation
   Pixels shown_{};
   int quarters_ = 0;
   std::map<int, Frame> frames_;
   std::map<int, Animation> animations_;
-  std::vector<Color> palette_; ///< of show_frame()
+  std::vector<Color> palette_; ///< used by show_frame()
   std::optional<Film> film_;
 };
 
-/// `RRGGBB` of every lamp, in the order of the pixels.
+/// Returns `RRGGBB` of every lamp, in the order of the pixels.
 std::string hex_of(const Matrix::Pixels& pixels);
-/// The picture with all lamps in one colour.
+/// Returns a picture with all lamps in one colour.
 Matrix::Pixels filled(Color color);
 
 } // namespace orb::vm

@@ -5,8 +5,8 @@
 
 namespace orb::vm::font {
 
-// The printable characters of ASCII in their order, sixteen beside each other, each of 8 rows, the
-// last for what hangs below the line. Drawn for this project: nobody has published the robot's.
+// The printable ASCII characters in order, sixteen per band, each of 8 rows; the last row is for
+// descenders. Drawn for this project, because the robot's font is unpublished.
 inline constexpr int per_band = 16;
 inline constexpr int rows = 8;
 inline constexpr int pitch = 6; ///< columns from one character to the next

@@ -2,7 +2,9 @@
 
 #include "protocol/packet.h"
 #include "protocol/payload_v2.h"
+#include "spec/ble.h"
 #include "vm/body/angles.h"
+#include "vm/common/bluetooth.h"
 
 #include <algorithm>
 #include <bit>
@@ -17,45 +19,13 @@ using spec::V2Error;
 using spec::V2Flag;
 using spec::V2Processor;
 
-constexpr double cm_per_m = 100;   // streams are in metres
-constexpr double hundredths = 100; // of a volt, of the whole
-/// A client listens for a message only once it has read the answer before it.
+constexpr double cm_per_m = 100;   // streams use metres
+constexpr double hundredths = 100; // of a volt
+/// A client listens for a message only after it has read the answer.
 constexpr Duration after_answer = 8ms;
-/// Where a gyroscope is at its end, in degrees per second. [?]
+/// Range of the gyroscope, in degrees per second. [?]
 constexpr double gyro_end = 2000;
 constexpr double encoder_steps_per_cm = 40; // [?]
-
-/// The device ids whose commands a sleeping robot obeys.
-bool serves_asleep(std::uint8_t did) {
-  const auto power = spec::info(V2Command::Wake).did();
-  return did <= power;
-}
-
-bool values_fit(V2Command command, ByteView data) {
-  std::size_t at = 0;
-  for (const auto& field : spec::v2_operands) {
-    if (field.command != command)
-      continue;
-    std::int64_t value = 0;
-    if (field.type == spec::V2Type::U8)
-      value = data[at++];
-    else if (field.type == spec::V2Type::U16) {
-      value = read_u16(data, at);
-      at += 2;
-    } else if (field.type == spec::V2Type::F32) {
-      const double number = protocol::read_f32(data, at);
-      at += sizeof(float);
-      if (!(number >= static_cast<double>(field.least) &&
-            number <= static_cast<double>(field.most)))
-        return false;
-      continue;
-    } else
-      return true; // what follows takes everything
-    if (value < field.least || value > field.most)
-      return false;
-  }
-  return true;
-}
 
 Color color_at(ByteView data, std::size_t at) {
   return {data[at], data[at + 1], data[at + 2]};
@@ -70,7 +40,11 @@ void append_text(Bytes& out, std::string_view text) {
 } // namespace
 
 RobotV2::RobotV2(Ball& ball, spec::Robot robot, std::string address)
-    : ball_(ball), robot_(spec::info(robot)), address_(std::move(address)) {}
+    : ball_(&ball), robot_(spec::info(robot)), address_(std::move(address)) {}
+
+RobotV2::RobotV2(const RobotV2& other, Ball& ball) : RobotV2(other) {
+  ball_ = &ball;
+}
 
 void RobotV2::connect() {
   decoder_ = {};
@@ -78,6 +52,7 @@ void RobotV2::connect() {
 }
 
 void RobotV2::disconnect() {
+  hangs_up_at_ = never;
   stop_streams();
   out_.clear();
   soon_.clear();
@@ -95,7 +70,7 @@ std::optional<Bytes> RobotV2::take_packet() {
 void RobotV2::stay_awake() {
   said_will_sleep_ = false;
   const bool is_rvr = robot_.sensors == spec::RobotSensors::Services;
-  sleeps_at_ = awake_ && is_rvr ? ball_.now() + spec::v2_sleeps_after : never;
+  sleeps_at_ = awake_ && is_rvr ? ball_->now() + spec::v2_sleeps_after : never;
 }
 
 void RobotV2::receive(ByteView bytes) {
@@ -136,37 +111,17 @@ void RobotV2::obey(const PacketV2& request) {
 }
 
 V2Error RobotV2::perform(const PacketV2& request, Bytes& answer) {
-  const bool targeted = spec::has(request.flags, V2Flag::HasTarget);
-  const auto first = spec::v2_target(V2Processor::Primary);
-  const auto second = spec::v2_target(V2Processor::Secondary);
-  // Most robots with one processor take what names the second, too: clients that drive real ones
-  // do so.
-  if (targeted && request.target != first &&
-      (request.target != second || robot_.targets == spec::Targets::First))
-    return V2Error::BadTarget;
-  if (std::none_of(spec::v2_commands.begin(), spec::v2_commands.end(),
-                   [&](const auto& row) { return row.did() == request.did; }))
-    return V2Error::BadDevice;
+  if (const auto error = protocol::refusal(request, robot_); error != V2Error::Success)
+    return error;
   const auto* row = spec::find_v2_command(request.did, request.cid);
-  if (row == nullptr || !spec::knows(robot_, *row))
-    return V2Error::BadCommand;
-  const bool is_rvr = robot_.sensors == spec::RobotSensors::Services;
-  const bool lamps_of_rvr = is_rvr && row->command == V2Command::MatrixColor; // of its first
-  if (targeted && robot_.targets == spec::Targets::Both && row->processor != V2Processor::Any &&
-      request.target != spec::v2_target(row->processor) && !lamps_of_rvr)
-    return V2Error::BadCommand;
-  if (!protocol::fits(row->command, request.data))
-    return V2Error::BadLength;
-  if (!values_fit(row->command, request.data))
-    return V2Error::BadParameter;
-  if (!awake_ && !serves_asleep(request.did))
+  if (!awake_ && !protocol::serves_asleep(request.did))
     return V2Error::TargetUnavailable;
   return perform(row->command, request, answer);
 }
 
 V2Error RobotV2::perform(V2Command command, const PacketV2& request, Bytes& answer) {
   const auto data = ByteView(request.data);
-  const auto& body = ball_.body();
+  const auto& body = ball_->body();
   const auto version = [&](unsigned major, unsigned minor, unsigned revision) {
     for (const auto part : {major, minor, revision})
       append_u16(answer, part);
@@ -211,20 +166,18 @@ V2Error RobotV2::perform(V2Command command, const PacketV2& request, Bytes& answ
   case V2Command::GetBatteryState: answer = {std::uint8_t(body.charging() ? 1 : 2)}; break;
   case V2Command::BatteryNotify: wishes_.battery = data[0] != 0; break;
   case V2Command::Wake:
+    hangs_up_at_ = never;
     if (!std::exchange(awake_, true)) {
-      if (has_slept_) // switched on it stands ready
-        moves_from_ = ball_.now() + spec::wakes_in(robot_.robot);
-      reset_locator(); // it follows a new yaw zero, as clients expect whatever its flags
+      if (has_slept_) // after power-on it can move at once
+        moves_from_ = ball_->now() + spec::wakes_in(robot_.robot);
+      reset_locator(); // clients expect the locator to follow a new yaw zero, whatever its flags
       say_soon(spec::V2Message::Woke, V2Processor::Primary, {});
     }
     break;
-  case V2Command::GetPercent: {
-    const auto battery = spec::battery(robot_.robot);
-    const double part = std::clamp(
-        (body.battery_v() - battery.empty) / (battery.charged - battery.empty), 0.0, 1.0);
-    answer = {static_cast<std::uint8_t>(std::lround(part * hundredths))};
+  case V2Command::GetPercent:
+    answer = {
+        static_cast<std::uint8_t>(spec::charge(spec::battery(robot_.robot), body.battery_v()))};
     break;
-  }
   case V2Command::GetVoltageState: answer = {voltage_state()}; break;
   case V2Command::VoltageNotify: wishes_.voltage = data[0] != 0; break;
   case V2Command::GetChargerState: answer = {charger_state()}; break;
@@ -241,28 +194,36 @@ V2Error RobotV2::perform(V2Command command, const PacketV2& request, Bytes& answ
   case V2Command::ScreenText:
   case V2Command::ScreenFace:
   case V2Command::ScreenRotation:
-  case V2Command::ScreenPicture: break; // it has no screen to show them on
+  case V2Command::ScreenPicture: break; // it has no screen
   case V2Command::ScreenColor:
-    ball_.set_led(color_at(data, 0));
+    ball_->set_led(color_at(data, 0));
     matrix_.fill(color_at(data, 0));
     break;
   case V2Command::ScreenClear:
-    ball_.set_led({});
+    ball_->set_led({});
     matrix_.clear();
     break;
   case V2Command::RawMotors: return set_motors(data);
-  case V2Command::ResetYaw: ball_.drive(SetHeading{0}); break;
+  case V2Command::ResetYaw: ball_->drive(SetHeading{0}); break;
   case V2Command::DriveWithHeading: drive(data); break;
   case V2Command::SetStabilization:
   case V2Command::Stabilize:
-    ball_.drive(data[0] == 0 ? Stabilization::Off : Stabilization::On);
+    ball_->drive(data[0] == 0 ? Stabilization::Off : Stabilization::On);
     break;
   case V2Command::PlayAnimation:
-  case V2Command::StopAnimation: break; // it moves and shines for nobody else
+  case V2Command::StopAnimation: break; // built-in animations are not modelled
   case V2Command::LegAction:
-    if (is_awake_enough() && data[0] != 0)
+    if (is_awake_enough() && data[0] != 0) {
+      constexpr std::uint8_t three_legs = 1;
       legs_ = data[0];
+      leg_ = legs_ == three_legs ? 1.0 : 0.0; // out or in [?]
+    }
     break;
+  case V2Command::SetLegPosition:
+    if (is_awake_enough())
+      leg_ = protocol::read_f32(data, 0);
+    break;
+  case V2Command::GetLegPosition: protocol::append_f32(answer, leg_); break;
   case V2Command::GetLegAction: answer = {legs_}; break;
   case V2Command::SetHead: head_deg_ = protocol::read_f32(data, 0); break;
   case V2Command::GetHead: protocol::append_f32(answer, head_deg_); break;
@@ -279,14 +240,17 @@ V2Error RobotV2::perform(V2Command command, const PacketV2& request, Bytes& answ
     break;
   case V2Command::StreamExtended:
     extended_ = read_u32(data, 0);
-    start_mask();
+    // A running stream continues: programs for a Mini request the extended sensors right after the
+    // others, and get the first sample with that answer (sphero_mini's example, and its issue 2).
+    if (next_sample_ == never || (mask_ == 0 && extended_ == 0))
+      start_mask();
     break;
   case V2Command::GetStreamExtended: append_u32(answer, extended_); break;
   case V2Command::GyroMaxNotify: wishes_.gyro_max = data[0] != 0; break;
   case V2Command::CollisionDetection: return set_collisions(data);
   case V2Command::CollisionNotify: wishes_.collisions = data[0] != 0; break;
   case V2Command::CollisionSense: {
-    // A level is a threshold here, of either axis. [?]
+    // A sensitivity level becomes a threshold for both axes. [?]
     constexpr int step = 20;
     const auto threshold = static_cast<std::uint8_t>((data[1] + 1) * step);
     const auto dead_time = static_cast<std::uint8_t>(std::min(read_u16(data, 2) / 10, UINT8_MAX));
@@ -294,10 +258,10 @@ V2Error RobotV2::perform(V2Command command, const PacketV2& request, Bytes& answ
   }
   case V2Command::CollisionSenseNotify: wishes_.sensed_collisions = data[0] != 0; break;
   case V2Command::ResetLocator: reset_locator(); break;
-  case V2Command::LocatorFlags: break; // sources disagree on what 1 means
+  case V2Command::LocatorFlags: break; // sources disagree on the meaning of 1
   case V2Command::GetLight: protocol::append_f32(answer, sense(spec::V2Sensor::Light)); break;
   case V2Command::CalibrateNorth: {
-    // North is where it faced in its world at power-on.
+    // North is the direction it faced in its world at power-on.
     Bytes degrees;
     append_u16(degrees, static_cast<std::uint32_t>(
                             std::lround(wrap_360(body.yaw_deg() - body.world_pose().heading_deg)) %
@@ -305,7 +269,7 @@ V2Error RobotV2::perform(V2Command command, const PacketV2& request, Bytes& answ
     say_soon(spec::V2Message::North, V2Processor::Secondary, std::move(degrees));
     break;
   }
-  case V2Command::GetInfrared: append_u32(answer, 0); break; // it is alone
+  case V2Command::GetInfrared: append_u32(answer, 0); break; // no other robot is near
   case V2Command::StartBroadcast:
   case V2Command::StartFollow:
   case V2Command::StopBroadcast:
@@ -324,7 +288,7 @@ V2Error RobotV2::perform(V2Command command, const PacketV2& request, Bytes& answ
     if (period == Duration{})
       return V2Error::BadParameter;
     stream.period = period;
-    stream.next = ball_.now() + stream.period;
+    stream.next = ball_->now() + stream.period;
     break;
   }
   case V2Command::StreamStop: services_of(request).next = never; break;
@@ -333,7 +297,7 @@ V2Error RobotV2::perform(V2Command command, const PacketV2& request, Bytes& answ
   case V2Command::GetName:
   case V2Command::GetAdvertisedName: append_text(answer, name()); break;
   case V2Command::PlaySound:
-  case V2Command::StopSounds: break; // nobody hears it
+  case V2Command::StopSounds: break; // sounds are not modelled
   case V2Command::SetVolume: volume_ = data[0]; break;
   case V2Command::GetVolume: answer = {volume_}; break;
   case V2Command::SetLeds: return set_lamps(read_u16(data, 0), data.subspan(2));
@@ -347,7 +311,7 @@ V2Error RobotV2::perform(V2Command command, const PacketV2& request, Bytes& answ
                     static_cast<int>(at / 3) / Matrix::side, color_at(data, at));
     break;
   case V2Command::MatrixColor:
-    ball_.set_led(color_at(data, 0));
+    ball_->set_led(color_at(data, 0));
     matrix_.fill(color_at(data, 0));
     break;
   case V2Command::MatrixSaveFrame: matrix_.save_frame(read_u16(data, 0), data.subspan(2)); break;
@@ -356,9 +320,9 @@ V2Error RobotV2::perform(V2Command command, const PacketV2& request, Bytes& answ
   case V2Command::MatrixPlayLoop: {
     plays_ = data[0];
     const bool loops = command == V2Command::MatrixPlayLoop && data[1] != 0;
-    if (!matrix_.play(data[0], loops, ball_.now()))
+    if (!matrix_.play(data[0], loops, ball_->now()))
       return V2Error::Failed;
-    if (!matrix_.plays()) // one picture
+    if (!matrix_.plays()) // a single picture
       say_soon(spec::V2Message::MatrixAnimationOver, V2Processor::Secondary, {data[0]});
     return V2Error::Success;
   }
@@ -369,16 +333,16 @@ V2Error RobotV2::perform(V2Command command, const PacketV2& request, Bytes& answ
       append_u16(answer, static_cast<std::uint32_t>(frame));
     break;
   case V2Command::MatrixForget: matrix_.forget(); break;
-  case V2Command::MatrixPause: matrix_.pause(ball_.now()); break;
-  case V2Command::MatrixResume: matrix_.resume(ball_.now()); break;
+  case V2Command::MatrixPause: matrix_.pause(ball_->now()); break;
+  case V2Command::MatrixResume: matrix_.resume(ball_->now()); break;
   case V2Command::MatrixReset: matrix_.clear(); break;
-  case V2Command::MatrixOverride: break; // its animations keep their own speed and fading
+  case V2Command::MatrixOverride: break; // animations keep their own speed and fading
   case V2Command::MatrixRotation: matrix_.rotate(data[0]); break;
   case V2Command::MatrixText: {
     plays_.reset();
     const auto text = as_text(data.subspan(5));
     matrix_.scroll(color_at(data, 0), data[3], data[4] != 0,
-                   std::string(text.substr(0, text.find('\0'))), ball_.now());
+                   std::string(text.substr(0, text.find('\0'))), ball_->now());
     break;
   }
   case V2Command::MatrixLine:
@@ -390,20 +354,20 @@ V2Error RobotV2::perform(V2Command command, const PacketV2& request, Bytes& answ
   case V2Command::MatrixCharacter:
     matrix_.character(color_at(data, 0), static_cast<char>(data[3]));
     break;
-  case V2Command::ReleaseLeds: ball_.set_led({}); break;
+  case V2Command::ReleaseLeds: ball_->set_led({}); break;
   case V2Command::None: return V2Error::BadCommand;
   }
   return V2Error::Success;
 }
 
-// What it is asked.
+// Requests.
 
-/// Sends the ball a command of its own API that wants no answer.
+/// Sends the ball a v1 command without asking for an answer.
 void RobotV2::ask_ball(spec::ApiCommand command, Bytes data) {
   auto packet = protocol::make_command(command, data, 0);
   packet.flags = static_cast<std::uint8_t>(packet.flags & ~spec::sop2_answer);
-  ball_.receive(encode(packet));
-  ball_.advance_to(ball_.now());
+  ball_->receive(encode(packet));
+  ball_->advance_to(ball_->now());
 }
 
 void RobotV2::reset_locator() {
@@ -411,13 +375,13 @@ void RobotV2::reset_locator() {
   ask_ball(spec::ApiCommand::ConfigureLocator, Bytes(operands, 0));
 }
 
-/// In the order of API v1, too: each threshold is followed by what full speed adds to it.
+/// The operands have the order of API v1: each threshold is followed by its increase at full speed.
 V2Error RobotV2::set_collisions(ByteView data) {
   ask_ball(spec::ApiCommand::ConfigureCollisionDetection, {data.begin(), data.end()});
   return V2Error::Success;
 }
 
-/// Palette, number of frames, frames.
+/// The data is palette, number of frames, frames.
 V2Error RobotV2::save_animation(ByteView data) {
   constexpr std::size_t palette_at = 4;
   const std::size_t count_at = palette_at + std::size_t{3} * data[3];
@@ -436,39 +400,34 @@ V2Error RobotV2::save_animation(ByteView data) {
   return V2Error::Success;
 }
 
-/// What the matrix plays by itself, and what it has come to show.
+/// Reports the end of what the matrix plays, and a changed picture.
 void RobotV2::watch_matrix() {
   const bool played = matrix_.plays();
-  matrix_.advance(ball_.now());
+  matrix_.advance(ball_->now());
   if (played && !matrix_.plays())
     say(plays_ ? spec::V2Message::MatrixAnimationOver : spec::V2Message::TextOver,
         V2Processor::Secondary, {plays_.value_or(0)});
   if (std::exchange(shown_, matrix_.pixels()) != matrix_.pixels())
-    ball_.show_matrix(matrix_.pixels());
+    ball_->show_matrix(matrix_.pixels());
 }
 
 std::uint8_t RobotV2::voltage_state() const {
   const auto battery = spec::battery(robot_.robot);
-  const double volts = ball_.body().battery_v();
+  const double volts = ball_->body().battery_v();
   return volts <= battery.critical ? 3 : volts <= battery.low ? 2 : 1;
 }
 
 std::uint8_t RobotV2::charger_state() const {
-  if (!ball_.body().charging())
+  if (!ball_->body().charging())
     return 1;
-  return ball_.body().battery_v() < spec::battery(robot_.robot).charged ? 2 : 3;
+  return ball_->body().battery_v() < spec::battery(robot_.robot).charged ? 2 : 3;
 }
 
-/// As it advertises itself: `SB-1A2B`.
+/// The name it advertises, for example `SB-1A2B`.
 std::string RobotV2::name() const {
   if (!name_.empty())
     return name_;
-  std::string digits;
-  std::copy_if(address_.begin(), address_.end(), std::back_inserter(digits),
-               [](char c) { return c != ':'; });
-  constexpr std::size_t shown = 4;
-  return std::string(spec::info(robot_.ble).prefix) +
-         digits.substr(digits.size() - std::min(shown, digits.size()));
+  return advertised_name(robot_.ble, address_);
 }
 
 void RobotV2::drive(ByteView data) {
@@ -476,17 +435,16 @@ void RobotV2::drive(ByteView data) {
     return;
   const int speed = spec::speed_from_wire(robot_, data[0]);
   const int flags = data[3];
-  const int heading = read_u16(data, 1) +
-                      ((flags & spec::v2_drive_backward) != 0 ? spec::ball::full_circle / 2 : 0);
+  const auto way = (flags & spec::v2_drive_backward) != 0 ? Way::Back : Way::Ahead;
   const auto go = speed == 0                                ? Go::Brake
                   : (flags & spec::v2_drive_fast_turn) != 0 ? Go::FastTurn
                                                             : Go::Drive;
-  if (robot_.sensors == spec::RobotSensors::Services) // nobody else can end raw motors
-    ball_.drive(Stabilization::On);
-  ball_.drive(Roll{heading % spec::ball::full_circle, speed, go});
+  if (robot_.sensors == spec::RobotSensors::Services) // only this ends their raw motors
+    ball_->drive(Stabilization::On);
+  ball_->drive(Roll{read_u16(data, 1) % spec::ball::full_circle, speed, go, way});
   if (speed != 0)
-    drives_until_ = ball_.now() + spec::v2_drive_timeout;
-  else if (ball_.body().stabilized()) // raw motors go on, and end by themselves
+    drives_until_ = ball_->now() + spec::v2_drive_timeout;
+  else if (ball_->body().stabilized()) // raw motors continue until their own time-out
     drives_until_ = never;
 }
 
@@ -497,9 +455,9 @@ V2Error RobotV2::set_motors(ByteView data) {
     constexpr MotorMode modes[] = {MotorMode::Off, MotorMode::Forward, MotorMode::Reverse};
     return Motor{modes[data[at]], data[at + 1]};
   };
-  ball_.drive(Motors{motor(0), motor(2)});
+  ball_->drive(Motors{motor(0), motor(2)});
   const bool off = data[0] == 0 && data[2] == 0;
-  drives_until_ = off ? never : ball_.now() + spec::v2_drive_timeout;
+  drives_until_ = off ? never : ball_->now() + spec::v2_drive_timeout;
   return V2Error::Success;
 }
 
@@ -512,7 +470,7 @@ V2Error RobotV2::set_lamps(std::uint32_t mask, ByteView values) {
       lamps_[lamp] = values[at++];
   if ((mask & robot_.body) != 0) {
     const auto red = static_cast<std::size_t>(std::countr_zero(robot_.body));
-    ball_.set_led({lamps_[red], lamps_[red + 1], lamps_[red + 2]});
+    ball_->set_led({lamps_[red], lamps_[red + 1], lamps_[red + 2]});
   }
   if (robot_.aiming != 0 && (mask & robot_.aiming) != 0)
     ask_ball(spec::ApiCommand::SetBackLed,
@@ -521,14 +479,15 @@ V2Error RobotV2::set_lamps(std::uint32_t mask, ByteView values) {
 }
 
 void RobotV2::fall_asleep() {
-  ball_.drive(Stop{});
+  ball_->drive(Stop{});
   drives_until_ = never;
   stop_streams();
-  ball_.set_led({});
+  ball_->set_led({});
   matrix_.clear();
   awake_ = false;
   has_slept_ = true;
   sleeps_at_ = never;
+  hangs_up_at_ = ball_->now() + std::chrono::seconds{spec::ble_lingers_s};
   say_soon(spec::V2Message::DidSleep, V2Processor::Primary, {});
 }
 
@@ -540,7 +499,7 @@ void RobotV2::stop_streams() {
 
 void RobotV2::start_mask() {
   const bool streams = interval_ > Duration{} && (mask_ != 0 || extended_ != 0);
-  next_sample_ = streams ? ball_.now() + interval_ : never;
+  next_sample_ = streams ? ball_->now() + interval_ : never;
 }
 
 RobotV2::Services& RobotV2::services_of(const PacketV2& request) {
@@ -572,7 +531,7 @@ V2Error RobotV2::configure(const PacketV2& request) {
 
 double RobotV2::sense(spec::V2Sensor sensor) const {
   using spec::V2Sensor;
-  const auto& body = ball_.body();
+  const auto& body = ball_->body();
   switch (sensor) {
   case V2Sensor::QuaternionX: return body.attitude().x;
   case V2Sensor::QuaternionY: return body.attitude().y;
@@ -592,7 +551,7 @@ double RobotV2::sense(spec::V2Sensor sensor) const {
   case V2Sensor::Speed:
     return vm::length(body.velocity_cm_s().x, body.velocity_cm_s().y) / cm_per_m;
   case V2Sensor::CoreTime:
-    return std::chrono::duration<double>(ball_.now().time_since_epoch()).count();
+    return std::chrono::duration<double>(ball_->now().time_since_epoch()).count();
   case V2Sensor::Head: return head_deg_;
   case V2Sensor::GyroX: return body.rotation_deg_s().x;
   case V2Sensor::GyroY: return body.rotation_deg_s().y;
@@ -618,11 +577,11 @@ std::vector<double> RobotV2::sense(spec::V2Service service) const {
   case V2Service::Speed: return of(V2Sensor::Speed);
   case V2Service::Light: return of(V2Sensor::Light);
   case V2Service::CoreTime: {
-    const auto ticks = static_cast<std::uint64_t>(ball_.now().time_since_epoch() / 1ms);
+    const auto ticks = static_cast<std::uint64_t>(ball_->now().time_since_epoch() / 1ms);
     return {static_cast<double>(ticks >> 32U), static_cast<double>(ticks & UINT32_MAX)};
   }
   case V2Service::Encoders: {
-    const double steps = std::floor(ball_.body().way_cm() * encoder_steps_per_cm);
+    const double steps = std::floor(ball_->body().way_cm() * encoder_steps_per_cm);
     return {steps, steps};
   }
   case V2Service::Color: break;
@@ -650,12 +609,12 @@ void RobotV2::say(spec::V2Message which, V2Processor processor, Bytes data) {
   out_.push_back(message(which, processor, std::move(data)));
 }
 
-/// What an answer leads to: it follows the answer by a little.
+/// Queues a message that follows the answer after a short delay.
 void RobotV2::say_soon(spec::V2Message which, V2Processor processor, Bytes data) {
-  soon_.emplace_back(ball_.now() + after_answer, message(which, processor, std::move(data)));
+  soon_.emplace_back(ball_->now() + after_answer, message(which, processor, std::move(data)));
 }
 
-/// A float for each bit of the masks, the highest first, whatever it means.
+/// Sends a float for each bit of the masks, the highest first, known or not.
 void RobotV2::say_sample() {
   Bytes data;
   for (const auto mask : {spec::V2Mask::Base, spec::V2Mask::Extended})
@@ -691,9 +650,9 @@ void RobotV2::say_services(Services& stream, V2Processor processor) {
   stream.next += stream.period;
 }
 
-/// What the ball says in its own packets: only collisions have a counterpart.
+/// Translates messages of the ball's own packets. Only collisions have a counterpart.
 void RobotV2::hear_ball() {
-  from_ball_.feed(ball_.take_output());
+  from_ball_.feed(ball_->take_output());
   while (const auto item = from_ball_.next()) {
     if (item->kind != protocol::Item::Kind::Async ||
         item->code != static_cast<std::uint8_t>(spec::AsyncId::Collision))
@@ -702,7 +661,8 @@ void RobotV2::hear_ball() {
       say(spec::V2Message::CollisionSensed, V2Processor::Secondary,
           {item->data.end() - 1, item->data.end()});
     else if (wishes_.collisions) {
-      // x y z, axis and two powers are the same; then a third power, and half of the time.
+      // x, y, z, axis and two powers are the same; then come a third power and the low half of the
+      // time.
       constexpr std::ptrdiff_t same = 11;
       constexpr std::ptrdiff_t time_at = 14;
       Bytes data(item->data.begin(), item->data.begin() + same);
@@ -714,9 +674,9 @@ void RobotV2::hear_ball() {
   }
 }
 
-/// What changes by itself, for clients that want to know.
+/// Reports changes to clients that subscribed.
 void RobotV2::watch_charger() {
-  const bool charging = ball_.body().charging();
+  const bool charging = ball_->body().charging();
   if (std::exchange(was_charging_, charging) != charging) {
     if (wishes_.charger)
       say(spec::V2Message::ChargerState, V2Processor::Primary, {charger_state()});
@@ -730,7 +690,7 @@ void RobotV2::watch_charger() {
 }
 
 void RobotV2::watch_rotation() {
-  const auto rate = ball_.body().rotation_deg_s();
+  const auto rate = ball_->body().rotation_deg_s();
   std::uint8_t flags = 0;
   unsigned bit = 0;
   for (const double value : {rate.x, -rate.x, rate.y, -rate.y, rate.z, -rate.z})
@@ -740,15 +700,19 @@ void RobotV2::watch_rotation() {
 }
 
 Instant RobotV2::next_event() const {
-  return std::min({drives_until_, next_sample_, matrix_.next_event(), first_.next, second_.next,
-                   soon_.empty() ? never : soon_.front().first,
+  return std::min({drives_until_, hangs_up_at_, next_sample_, matrix_.next_event(), first_.next,
+                   second_.next, soon_.empty() ? never : soon_.front().first,
                    said_will_sleep_ || sleeps_at_ == never
                        ? sleeps_at_
                        : sleeps_at_ - Duration{spec::v2_sleep_warning}});
 }
 
 void RobotV2::run() {
-  const auto now = ball_.now();
+  const auto now = ball_->now();
+  if (hangs_up_at_ <= now) {
+    disconnect();
+    ball_->disconnect();
+  }
   for (; !soon_.empty() && soon_.front().first <= now; soon_.pop_front())
     out_.push_back(std::move(soon_.front().second));
   if (sleeps_at_ <= now)
@@ -762,7 +726,7 @@ void RobotV2::run() {
   watch_matrix();
   if (drives_until_ <= now) {
     drives_until_ = never;
-    ball_.drive(Stop{});
+    ball_->drive(Stop{});
   }
   if (next_sample_ <= now)
     say_sample();

@@ -18,41 +18,48 @@
 
 namespace orb::vm {
 
-/// A virtual robot of packets v2: a ball whose clients speak these. It holds no physics and no
-/// lamps of its own; what a client asks it asks the ball, and what the ball feels it says. It
-/// answers while it sleeps, but drives and shines only once it has been woken.
+/// A virtual robot with packets v2: an adapter from these to a ball. It holds no physics and no
+/// lamps; it forwards requests to the ball and reports what the ball senses. It answers while
+/// asleep, but drives and shines only once woken. Large because it holds everything that a client
+/// can set, stream or subscribe to on any of the robots.
 class RobotV2 {
 public:
-  /// `ball` must outlive it; the time is the ball's.
+  /// `ball` must outlive it and supplies the time.
   RobotV2(Ball& ball, spec::Robot robot, std::string address);
+  /// Copies the robot for a copy of its ball.
+  RobotV2(const RobotV2& other, Ball& ball);
 
-  /// A client has come; nothing is known of it yet.
+  /// Returns true once woken. While asleep it answers but neither drives nor shines.
+  bool awake() const { return awake_; }
+  /// A client connects with fresh state.
   void connect();
   void disconnect();
-  /// Bytes from the client, at the ball's now().
+  /// Takes bytes from the client, at the ball's now().
   void receive(ByteView bytes);
-  /// What is due by the ball's now() happens. To be called after the ball has been advanced.
+  /// Runs what is due by the ball's now(). To be called after the ball has been advanced.
   void run();
-  /// When run() is due next; `never` while nothing happens by itself.
+  /// When run() is due next; `never` if nothing is pending.
   Instant next_event() const;
-  /// A whole packet that leaves, oldest first.
+  /// Returns the oldest whole packet that leaves.
   std::optional<Bytes> take_packet();
 
 private:
+  RobotV2(const RobotV2&) = default;
+
   struct Service {
     const spec::V2ServiceInfo* row;
     int bits;
   };
-  /// The streams of an RVR's processor: several tokens, one period.
+  /// The streams of one processor of an RVR: several tokens, one period.
   struct Services {
     std::map<std::uint8_t, std::vector<Service>> tokens;
     Duration period{};
     Instant next = never;
   };
-  /// What a client has switched on.
+  /// Notifications enabled by the client.
   struct Wishes {
     bool collisions = true;
-    bool sensed_collisions = false; ///< as a BOLT+ says it
+    bool sensed_collisions = false; ///< in the format of a BOLT+
     bool battery = false;
     bool charger = false;
     bool gyro_max = false;
@@ -82,7 +89,7 @@ private:
   std::uint8_t voltage_state() const;
   std::uint8_t charger_state() const;
   std::string name() const;
-  bool is_awake_enough() const { return awake_ && ball_.now() >= moves_from_; }
+  bool is_awake_enough() const { return awake_ && ball_->now() >= moves_from_; }
   void stay_awake();
   void say_sample();
   void say_services(Services& stream, spec::V2Processor processor);
@@ -91,7 +98,7 @@ private:
   Services& services_of(const protocol::PacketV2& request);
   void hear_ball();
 
-  Ball& ball_;
+  Ball* ball_;
   const spec::RobotInfo& robot_;
   std::string address_;
   protocol::DecoderV2 decoder_;
@@ -100,25 +107,27 @@ private:
   std::deque<std::pair<Instant, Bytes>> soon_; ///< messages that follow an answer
   bool awake_ = false;
   bool has_slept_ = false;
-  Instant moves_from_{};      ///< until then it drops what moves it
-  Instant sleeps_at_ = never; ///< without another packet
+  Instant moves_from_{};      ///< drops drive commands until then
+  Instant sleeps_at_ = never; ///< if no packet arrives
   bool said_will_sleep_ = false;
+  Instant hangs_up_at_ = never; ///< asleep, unless it is woken
   Wishes wishes_;
   bool was_charging_ = false;
   bool was_turning_fast_ = false;
   std::uint8_t was_voltage_state_ = 0;
-  std::string name_; ///< that a client gave it
+  std::string name_; ///< set by a client
   double head_deg_ = 0;
   std::uint8_t legs_ = 2;
+  double leg_ = 0; ///< the third one
   std::uint8_t volume_ = UINT8_MAX;
   Instant drives_until_ = never;
   std::array<std::uint8_t, 32> lamps_{};
-  Matrix matrix_; ///< of robots that have none it stays dark
+  Matrix matrix_; ///< stays dark on robots without a matrix
   Matrix::Pixels shown_{};
-  std::optional<std::uint8_t> plays_; ///< the animation; nothing: a text
+  std::optional<std::uint8_t> plays_; ///< the animation that plays; nullopt: a text
 
   Duration interval_{};
-  int left_ = 0; ///< samples to come; 0: endless
+  int left_ = 0; ///< samples left; 0: endless
   std::uint32_t mask_ = 0;
   std::uint32_t extended_ = 0;
   Instant next_sample_ = never;

@@ -2,7 +2,7 @@
 
 #include "base/rules.h"
 
-/// The rules about stimulus scripts: `rules::StimulusSyntax`.
+/// The rules for stimulus scripts: `rules::StimulusSyntax`.
 namespace orb::vm::rules {
 
 #define ORB_RULES "vm/rules.def"

@@ -12,7 +12,7 @@ namespace orb::vm {
 namespace {
 
 constexpr std::string_view kind = "orb.state/";
-constexpr int version = 2; ///< since 2 there is a checksum
+constexpr int version = 2; ///< version 2 added the checksum
 
 std::string checksum(std::string_view text) {
   return fmt::format("{:016X}", hash(text));
@@ -54,14 +54,14 @@ std::string save_state(Ball& ball) {
 
 namespace {
 
-/// Takes the first line off a text.
+/// Removes the first line of a text and returns it.
 std::string_view take_line(std::string_view& text) {
   const auto line = text.substr(0, text.find('\n'));
   text.remove_prefix(std::min(text.size(), line.size() + 1));
   return line;
 }
 
-/// The version of the file, from its first line.
+/// Parses the version in the first line of the file.
 tl::expected<int, std::string> read_version(std::string_view line) {
   const auto number =
       line.starts_with(kind) ? parse_number<int>(line.substr(kind.size())) : std::optional<int>();

@@ -95,6 +95,13 @@ StimulusScript parse_stimulus(const Source& source) {
   return script;
 }
 
+LiveStimulus read_live_stimulus(std::string_view line) {
+  constexpr std::string_view at_now = "at now ";
+  const bool is_now = line.starts_with(at_now);
+  const Source source("line", std::string(is_now ? line.substr(at_now.size()) : line));
+  return {parse_stimulus(source), is_now || !line.starts_with("at ")};
+}
+
 bool is_stimulus_line(std::string_view text) {
   return text.starts_with("at ") || text.starts_with("wall ");
 }

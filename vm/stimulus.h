@@ -16,7 +16,8 @@
 
 namespace orb::vm {
 
-/// What the world, or a client, does to a ball. docs/ball.md lists the lines of a script.
+/// Events that the world or a client inflicts on a ball. docs/using/ball.md lists the lines of a
+/// script.
 namespace stimulus {
 
 struct Shake {};
@@ -27,11 +28,11 @@ struct Push {
   int heading_deg = 0;
   int strength = 0; ///< 0..255
 };
-/// A client's roll command.
+/// A roll command from a client.
 struct ClientRoll {
   Roll roll;
 };
-/// A client's colour.
+/// A colour from a client.
 struct ClientColor {
   Color color;
 };
@@ -70,14 +71,14 @@ struct TimedStimulus {
   Stimulus stimulus;
 };
 
-/// What a script says.
+/// The words of a script.
 enum class StimulusWord : std::uint8_t {
 #define ORB_STIMULUS(name, ...) name,
 #include "vm/stimulus.def"
 #undef ORB_STIMULUS
 };
 
-/// A word of a stimulus script.
+/// Describes a word of a stimulus script.
 struct StimulusInfo {
   std::string_view word;
   Slots slots;
@@ -85,7 +86,7 @@ struct StimulusInfo {
   std::string_view example; ///< a whole line
 };
 
-/// What stands behind those words.
+/// The values that follow those words.
 namespace slot {
 using namespace orb::slot;
 
@@ -102,7 +103,7 @@ inline constexpr Slot wall{.kind = Kind::Axis,
 constexpr Slot byte(std::string_view shown, const Row<>& called) {
   return whole(shown, called, 0, spec::ball::greatest);
 }
-/// In degrees, or degrees a second, either way.
+/// In degrees or degrees a second, positive or negative.
 constexpr Slot angle(std::string_view shown, const Row<>& called, double most) {
   return number(shown, called, -static_cast<int>(most), static_cast<int>(most));
 }
@@ -115,21 +116,30 @@ inline constexpr auto stimulus_words = std::to_array<StimulusInfo>({
 #undef ORB_STIMULUS
 });
 
-/// A script and what is wrong with it: lines that could not be read are left out.
+/// A parsed script and its diagnostics. Lines that cannot be read are left out.
 struct StimulusScript {
-  std::vector<TimedStimulus> events; ///< in the order of their times; equals as written
+  std::vector<TimedStimulus> events; ///< by time; equal times as written
   std::vector<Diagnostic> diagnostics;
 };
 
 StimulusScript parse_stimulus(const Source& source);
 
-/// Whether a text is itself a line of a script, such as `at 2s shake`, where a file could be named.
+/// What a line asks of a running ball: `shake` and `at now shake` happen at once, `at 2s shake` at
+/// that time of the ball.
+struct LiveStimulus {
+  StimulusScript script;
+  bool at_once = true;
+};
+LiveStimulus read_live_stimulus(std::string_view line);
+
+/// Returns true if the text is itself a line of a script, such as `at 2s shake`, and not the name
+/// of a file.
 bool is_stimulus_line(std::string_view text);
 
-/// Orders by time; equals stay as they are.
+/// Sorts by time; equal times keep their order.
 void sort_by_time(std::vector<TimedStimulus>& events);
 
-/// Reads one line (from 1) of a text that may hold other lines, too, and adds to `script`.
+/// Parses one line (from 1) of a text that may contain other lines, and adds it to `script`.
 void read_stimulus_line(const Source& source, std::uint32_t line, StimulusScript& script);
 
 } // namespace orb::vm

@@ -2,7 +2,7 @@
 
 #include "base/texts.h"
 
-/// What is said about stimulus scripts: `texts::NotAnEvent(word)`.
+/// The texts about stimulus scripts: `texts::NotAnEvent(word)`.
 namespace orb::vm::texts {
 
 using namespace orb::texts;

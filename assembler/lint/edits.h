@@ -1,6 +1,6 @@
 #pragma once
 
-// Private to assembler/: changes of whole lines.
+// Private to assembler/: edits of whole lines.
 
 #include "base/diagnostic.h"
 #include "base/source.h"
@@ -18,14 +18,14 @@ inline std::string_view indent_of(const Source& source, std::uint32_t line) {
   return text.substr(0, std::min(text.find_first_not_of(" \t"), text.size()));
 }
 
-/// A statement on a line of its own below another line.
+/// Inserts a statement as a new line below another.
 inline Edit below(const Source& source, std::uint32_t line, std::string_view indent,
                   std::string_view statement) {
   const auto end = source.line_span(line).end;
   return {{end, end}, fmt::format("{}{}{}", line_end_of(source.text()), indent, statement)};
 }
 
-/// A statement on a line of its own above another line, indented as that.
+/// Inserts a statement as a new line above another, with the same indentation.
 inline Edit above(const Source& source, std::uint32_t line, std::string_view statement) {
   const auto begin = source.line_start(line);
   return {{begin, begin},

@@ -5,7 +5,7 @@
 #include "assembler/lint/lint_meant.h"
 #include "assembler/lint/lint_timing.h"
 #include "assembler/text/layout.h"
-#include "assembler/text/parse.h"
+#include "assembler/text/parse_macro.h"
 #include "assembler/text/rephrase.h"
 #include "assembler/text/rules.h"
 #include "assembler/text/texts.h"
@@ -64,7 +64,7 @@ public:
     check_collisions();
     check_rolls();
     if (any_error(assembly_.diagnostics))
-      return std::move(diagnostics_); // a line that does not parse may take the time
+      return std::move(diagnostics_); // an unparsed line may be the one that takes time
     join(lint_timing(source_, assembly_));
     return std::move(diagnostics_);
   }
@@ -141,7 +141,7 @@ private:
                                   texts::WriteEnd(spec::macro_id_stream));
         diagnostic.fix = Fix{texts::Write("end"), {{command.span, "end"}}, Safety::Unsafe};
         if (!macro.id)
-          diagnostic.severity = Severity::Warning; // it may be sent as a stream yet
+          diagnostic.severity = Severity::Warning; // it may still be sent as a stream
       }
       if (command.info->place == spec::MacroPlace::NeverInStream && stream)
         report(rules::NeverInStream, command.span, texts::StreamIgnores(word),
@@ -161,7 +161,7 @@ private:
              texts::Missing("end"), texts::Remove(".noend"));
   }
 
-  /// `sleep` with commands below it: a wait was meant.
+  /// `sleep` with commands after it: the author meant a wait.
   void sleeps_on(const PlacedCommand& sleep) {
     auto line = std::string(source_.text(sleep.span));
     line.replace(0, sleep.info->mnemonic.size(), spec::info(MacroCommand::Delay).mnemonic);
@@ -203,7 +203,7 @@ private:
     check_time(command);
   }
 
-  /// A time without a unit that is too short for anything: seconds were meant.
+  /// A time without a unit that is too short to be useful: the author meant seconds.
   void check_time(const PlacedCommand& command) {
     constexpr std::int32_t shortest_ms = 10;
     if (command.info->operand_count == 0)
@@ -235,8 +235,8 @@ private:
             Safety::Unsafe};
   }
 
-  /// The one known id that is a slip away from what a command names; empty where there is none, or
-  /// several. The macro itself was not meant.
+  /// The one known id within a typo of the id in a command; empty if there is none or several. The
+  /// macro's own id is excluded.
   std::string near_id(const PlacedCommand& command) const {
     const auto written = std::to_string(command.value[0]);
     std::string found;
@@ -252,7 +252,7 @@ private:
     return found;
   }
 
-  /// A known id with the same two digits the other way round; empty where there is none.
+  /// A known id with the two digits swapped; empty if there is none.
   std::string turned_id(std::uint8_t id) const {
     const std::size_t turned = id % 10U * 10U + id / 10U;
     return turned >= spec::macro_id_user_first && known_[turned] ? std::to_string(turned)
@@ -338,7 +338,7 @@ private:
              texts::WriteAbove("configure_collision 1, 100, 50, 100, 50, 200ms"));
   }
 
-  /// The only roll has speed 0, and then the ball is stopped: speed and heading are exchanged.
+  /// If the only roll has speed 0 and the ball is then stopped, speed and heading are swapped.
   void check_rolls() {
     const PlacedCommand* roll = nullptr;
     bool stops = false;
@@ -391,11 +391,11 @@ private:
   const Assembly& assembly_;
   const LintOptions& options_;
   const Ids& known_;
-  const AssembledMacro* around_ = nullptr; ///< the macro that is looked at
+  const AssembledMacro* around_ = nullptr; ///< the macro being checked
   std::vector<Diagnostic> diagnostics_;
 };
 
-/// Leaves out what remarks allow.
+/// Removes the findings allowed by remarks.
 void silence(const Source& source, std::vector<Diagnostic>& diagnostics) {
   std::vector<AllowComment> comments;
   for (auto found = source.text().find(allow_mark); found != std::string_view::npos;
@@ -405,7 +405,7 @@ void silence(const Source& source, std::vector<Diagnostic>& diagnostics) {
     const auto remark = remark_of(line);
     const auto start = source.line_start(number);
     if (found < start + remark)
-      continue; // in a text
+      continue; // inside a text
     const auto end = start + static_cast<std::uint32_t>(line.size());
     const bool alone = line.substr(0, remark).find_first_not_of(" \t") == std::string_view::npos;
     const auto about = alone ? number + 1 : number;
@@ -428,8 +428,9 @@ std::vector<Diagnostic> lint(const Source& source, const Assembly& assembly,
 
 namespace {
 
-/// Words of macros, but those that a constant has in other letters: `SPEED` is no `speed`.
-std::vector<std::string_view> all_words(const Elsewhere& elsewhere) {
+/// The words of macros, without those that differ from a constant only in case: beside a constant
+/// `SPEED`, `speed` is not offered.
+std::vector<std::string_view> all_words(const SurroundingText& elsewhere) {
   std::vector<std::string_view> words{".macro", ".const", ".raw", ".noend", "on",      "off",  "id",
                                       "flags",  "delay",  "time", "speed",  "heading", "angle"};
   for (const auto& row : spec::macro_commands)
@@ -442,13 +443,13 @@ std::vector<std::string_view> all_words(const Elsewhere& elsewhere) {
   return words;
 }
 
-/// The line to write, for each error; what other files define stays defined.
+/// Adds the corrected line to each error. What other files define stays defined.
 void offer_lines(const Source& source, const Ids& known, const LintOptions& options,
                  std::vector<Diagnostic>& findings) {
   repair::Dialect dialect;
   dialect.language = repair::Language::Macro;
   dialect.parses = [](std::string_view line) { return parse(line).diagnostics.empty(); };
-  const auto elsewhere = look_elsewhere(source.text());
+  const auto elsewhere = read_surroundings(source.text());
   dialect.words = all_words(elsewhere);
   dialect.rephrase = [&](const repair::Tokens& line) { return rephrase(line, elsewhere); };
   dialect.check = [&](std::string_view text) {

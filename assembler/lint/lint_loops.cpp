@@ -17,7 +17,7 @@ namespace {
 using spec::MacroCommand;
 using Origin = PlacedCommand::Origin;
 
-constexpr std::size_t longest_line = 240; // bytes, of what is looked at
+constexpr std::size_t longest_line = 240; // bytes; longer lines are not examined
 
 class LoopLinter {
 public:
@@ -86,7 +86,7 @@ private:
     d.fix = Fix{d.help, {{command.operand, std::to_string(said)}}, Safety::Unsafe};
   }
 
-  /// How often something happens by the remarks above a command, `three times`; 0 where none says.
+  /// The number of repetitions in the remarks above a command, `three times`; 0 if there is none.
   int count_said(const PlacedCommand& command) const {
     int said = 0;
     for (std::uint32_t n = 1; n <= line_of(command); ++n) {
@@ -100,7 +100,7 @@ private:
     return said;
   }
 
-  /// Whether a line above has an error and looks like the beginning of a loop.
+  /// True if a line above has an error and looks like the start of a loop.
   bool may_begin_above(const PlacedCommand& command) const {
     return std::any_of(
         assembly_.diagnostics.begin(), assembly_.diagnostics.end(), [&](const Diagnostic& error) {
@@ -143,8 +143,8 @@ private:
                 Safety::Unsafe};
   }
 
-  /// The last command that a loop without an end was meant to repeat: what is indented by it, else
-  /// all but what rests and darkens the ball when everything is done.
+  /// The last command that an unclosed loop was meant to repeat: the last indented one, else the
+  /// last before the closing commands that stop and darken the ball.
   const PlacedCommand* last_inside(const AssembledMacro& macro, const PlacedCommand& open) const {
     const auto first = static_cast<std::size_t>(&open - macro.commands.data());
     auto last = macro.commands.size();
@@ -166,7 +166,7 @@ private:
     return &macro.commands[end - 1];
   }
 
-  /// Whether a command is one that ends a dance: it takes no time, and lets the ball rest.
+  /// True if a command closes a routine: it takes no time and leaves the ball at rest.
   static bool finishes(const PlacedCommand& command) {
     if (command.info == nullptr || command.origin != Origin::Written)
       return false;

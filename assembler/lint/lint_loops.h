@@ -8,7 +8,7 @@
 
 namespace orb::assembler {
 
-/// Loops without an end, ends without a loop, loops in loops and those of no or one round.
+/// Finds loops without an end, ends without a loop, nested loops, and loops of zero rounds or one.
 std::vector<Diagnostic> lint_loops(const Source& source, const Assembly& assembly);
 
 } // namespace orb::assembler

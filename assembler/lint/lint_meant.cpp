@@ -19,11 +19,11 @@ namespace {
 using spec::MacroCommand;
 using Origin = PlacedCommand::Origin;
 
-/// A value that the system keeps, as mnemonics name it: `set_sd1` sets it, `roll_sd1` uses it.
+/// A stored system value and the mnemonics for it: `set_sd1` sets it, `roll_sd1` uses it.
 struct Kept {
   std::string_view set;
   std::string_view use;                       ///< part of the mnemonics that use it
-  const Row<Hole::Code, Hole::Number>* unset; ///< what is said where it is used and not set
+  const Row<Hole::Code, Hole::Number>* unset; ///< the message if it is used but not set
   int number;
 };
 constexpr auto kept = std::to_array<Kept>({{"set_sd1", "_sd1", &texts::TakesDelay, 1},
@@ -40,7 +40,7 @@ public:
     for (const auto& macro : assembly_.macros) {
       for (const auto& command : macro.commands) {
         if (command.info == nullptr || command.origin == Origin::Raw)
-          return {}; // who knows what else is done
+          return {}; // unknown commands may follow
         check_colour(command);
         check_heading(command);
       }
@@ -59,7 +59,7 @@ private:
     diagnostics_.push_back(std::move(d));
   }
 
-  /// Where the first numbers of a statement stand, up to the first that has a name.
+  /// The positions of the first numbers of a statement, up to the first named operand.
   static std::vector<std::size_t> numbers(const repair::Tokens& statement, std::size_t most) {
     std::vector<std::size_t> found;
     for (std::size_t i = 1; i < statement.size() && found.size() < most; ++i) {
@@ -75,7 +75,7 @@ private:
     return repair::tokens_of(source_.text(command.span), repair::Language::Macro);
   }
 
-  /// Colours of 0 and 1: they go to 255.
+  /// Colours of 0 and 1, although the range is 0 to 255.
   void check_colour(const PlacedCommand& command) {
     const auto kind = command.info->command;
     const std::size_t channels =
@@ -101,7 +101,7 @@ private:
       offer(rules::DimColour, command, texts::AlmostDark(), repair::join(tokens));
   }
 
-  /// A heading that robots and documents do not read alike.
+  /// A heading on which robots and documents disagree.
   void check_heading(const PlacedCommand& command) {
     if (!is(command, MacroCommand::SetHeading) || command.value[0] == 0 ||
         command.origin != Origin::Written)
@@ -116,8 +116,7 @@ private:
           repair::join(tokens), texts::ZeroIsTheSame());
   }
 
-  /// The two numbers of a roll, as they are written; nothing where a name or a unit says which is
-  /// which.
+  /// The two numbers of a roll, as written; nothing if a name or a unit identifies them.
   static std::vector<std::size_t> exchangeable(const repair::Tokens& tokens,
                                                const PlacedCommand& roll) {
     auto two = numbers(tokens, 2);
@@ -130,7 +129,7 @@ private:
     return two;
   }
 
-  /// The line of a roll with its two numbers exchanged; empty where they cannot be.
+  /// The line of a roll with its two numbers swapped; empty if they cannot be swapped.
   std::string exchanged(const PlacedCommand& roll) const {
     auto tokens = split(roll);
     const auto two = exchangeable(tokens, roll);
@@ -142,7 +141,7 @@ private:
 
   void check_exchanged(const AssembledMacro& macro) {
     std::vector<const PlacedCommand*> all; // that drive
-    std::set<std::int32_t> stops;          // the headings of those that stop it
+    std::set<std::int32_t> stops;          // the headings of the rolls that stop
     for (const auto& command : macro.commands)
       if (is(command, MacroCommand::Roll) || is(command, MacroCommand::Roll2) ||
           is(command, MacroCommand::RollSd1)) {
@@ -173,7 +172,7 @@ private:
     return false;
   }
 
-  /// The angles that programs turn by are multiples of these.
+  /// Programs turn by multiples of these angles.
   static constexpr std::int32_t eighth = spec::ball::full_circle / 8;
   static constexpr std::int32_t twelfth = spec::ball::full_circle / 12;
 
@@ -181,25 +180,25 @@ private:
     return value % eighth == 0 || value % twelfth == 0;
   }
 
-  /// Whether what stands in place of the speed looks like a heading, and the other way round.
+  /// True if the speed looks like a heading and the heading like a speed.
   bool is_turned(const PlacedCommand& roll, const std::set<std::int32_t>& stops) const {
     return roll.value[0] % eighth == 0 && !is_usual_heading(roll.value[1]) &&
            roll.value[1] <= spec::ball::greatest && !stops.contains(roll.value[1]) &&
            !exchanged(roll).empty();
   }
 
-  /// Rolls whose two numbers look like those of the other rolls when they are exchanged.
+  /// Finds rolls whose numbers match the other rolls only if swapped.
   void check_usual_headings(const std::vector<const PlacedCommand*>& all,
                             const std::set<std::int32_t>& stops) {
     std::vector<const PlacedCommand*> turned;
-    std::set<std::int32_t> speeds; // of the other ones
+    std::set<std::int32_t> speeds; // of the other rolls
     for (const auto* one : all)
       if (is_turned(*one, stops))
         turned.push_back(one);
       else if (is_usual_heading(one->value[1]) && one->value[0] % eighth != 0)
         speeds.insert(one->value[0]);
       else
-        return; // one that looks like neither
+        return; // a roll that fits neither order
     const auto others = all.size() - turned.size();
     if (turned.empty())
       return;
@@ -214,7 +213,7 @@ private:
             exchanged(*one), texts::SpeedFirst());
   }
 
-  /// All rolls of a macro are turned, and they do not all go at one speed.
+  /// All rolls of a macro have speed and heading swapped, and their speeds differ.
   void check_all_turned(const std::vector<const PlacedCommand*>& turned) {
     const auto& first = *turned.front();
     const auto other = std::find_if(turned.begin(), turned.end(), [&](const PlacedCommand* one) {
@@ -250,7 +249,7 @@ private:
     });
   }
 
-  /// One system value is set and not used, its twin is used and not set.
+  /// One system value is set but not used; its twin is used but not set.
   void check_kept() {
     for (std::size_t i = 0; i < kept.size(); ++i) {
       const auto& one = kept[i];

@@ -8,7 +8,7 @@
 
 namespace orb::assembler {
 
-/// Commands that are valid and hardly meant so, by what the rest of the file does.
+/// Finds valid commands that the author probably did not mean, judged by the rest of the file.
 std::vector<Diagnostic> lint_meant(const Source& source, const Assembly& assembly);
 
 } // namespace orb::assembler

@@ -57,16 +57,17 @@ private:
     return diagnostics_.back();
   }
 
-  /// False where the rule was reported there already: loops and callers come by more than once.
+  /// Returns false if the rule was already reported here: loops and callers visit a command
+  /// repeatedly.
   bool first_time(const Rule& rule, Span span) {
     return reported_.insert({rule.id, span.begin}).second;
   }
 
   struct Background {
-    const PlacedCommand* command = nullptr; ///< null: none runs
+    const PlacedCommand* command = nullptr; ///< null: none is running
     std::int64_t begin_ms = 0;
     std::int64_t end_ms = 0;
-    const PlacedCommand* wait = nullptr; ///< the one delay since then
+    const PlacedCommand* wait = nullptr; ///< the only delay since then
     int waits = 0;
   };
 
@@ -97,7 +98,7 @@ private:
         Fix{texts::Write(line), {below(source_, at, indent_of(source_, at), line)}, Safety::Unsafe};
   }
 
-  /// The delay that is there becomes long enough, or there is one.
+  /// Proposes to lengthen the existing delay, or to add one.
   void lengthen(Diagnostic& diagnostic, const Background& background, std::int64_t now_ms) const {
     const auto& command = *background.command;
     const auto line = delay(background.end_ms - background.begin_ms);
@@ -112,13 +113,13 @@ private:
     }
   }
 
-  /// What goes on while commands run.
+  /// Effects that continue while commands run.
   struct Ongoing {
     Background fade;
     Background rotation;
-    Background roll;   ///< the last one that drives, with the time when it was told
-    Background colour; ///< the last one that was set
-    const PlacedCommand* unstabilized = nullptr; ///< what switched stabilization off
+    Background roll;                             ///< the last drive command, with its time
+    Background colour;                           ///< the last colour set
+    const PlacedCommand* unstabilized = nullptr; ///< the command that switched stabilization off
   };
 
   void follow(std::size_t start, std::vector<bool>& seen) {
@@ -142,7 +143,7 @@ private:
                                    : 0;
       begin_background(command, visit, ongoing);
       if (command.info->command == MacroCommand::Gosub && !defines(command.value[0]))
-        ongoing = {}; // who knows what happens there
+        ongoing = {}; // the callee is unknown
     });
     if (result.end != WalkEnd::Ended && result.end != WalkEnd::Sleeps)
       return;
@@ -157,7 +158,7 @@ private:
                           spec::MacroFlag::MotorControl);
   }
 
-  /// A roll or a colour that lasts for no time.
+  /// Reports a roll or a colour that is replaced at once.
   void replaced(const Background& first, std::int64_t now_ms, Span by, Message message) {
     if (first.command == nullptr || now_ms > first.begin_ms ||
         !first_time(rules::NoTime, first.command->span))
@@ -175,7 +176,7 @@ private:
                                    : a.info->command == b.info->command);
   }
 
-  /// Where all others of its kind last equally long, so does this one.
+  /// If all others of its kind last equally long, proposes the same for this one.
   void last_as_others(Diagnostic& diagnostic, const PlacedCommand& command) const {
     std::vector<std::int64_t> times;
     for (const auto& macro : assembly_.macros)
@@ -209,7 +210,7 @@ private:
     }
   }
 
-  /// A line that is missing above a command.
+  /// Proposes a missing line above a command.
   Diagnostic& before_it(Diagnostic& diagnostic, const PlacedCommand& command,
                         const std::string& line) const {
     diagnostic.help = texts::AddBefore(line);
@@ -276,7 +277,7 @@ private:
   const Assembly& assembly_;
   std::vector<Diagnostic> diagnostics_;
   std::set<std::pair<std::string_view, std::uint32_t>> reported_;
-  std::size_t budget_ = longest_walk; ///< commands to follow yet, all macros together
+  std::size_t budget_ = longest_walk; ///< commands left to follow, over all macros
 };
 
 } // namespace

@@ -8,11 +8,11 @@
 
 namespace orb::assembler {
 
-/// Whether it is that command, and is whole.
+/// True if it is this command, without errors.
 bool is(const PlacedCommand& command, spec::MacroCommand kind);
 
-/// What macros do too early, while something else goes on: fades and rotations that are cut short,
-/// rolls that are ignored.
+/// Finds commands that come too early: fades and rotations that are cut short, rolls that are
+/// ignored.
 std::vector<Diagnostic> lint_timing(const Source& source, const Assembly& assembly);
 
 } // namespace orb::assembler

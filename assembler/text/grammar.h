@@ -1,7 +1,7 @@
 #pragma once
 
 // The grammar of macro source, one line at a time. Private to assembler/. Commands, directives and
-// their operands all have one form, so a new row of spec/macro.def leaves this file alone.
+// their operands share one form, so a new row of spec/macro.def needs no change here.
 //
 //   roll speed=128 heading=90deg, delay=0.2s   # remark
 //   .macro square id=40 flags=motor_control,endsig

@@ -1,5 +1,6 @@
 #include "assembler/text/layout.h"
 
+#include "base/text/lines.h"
 #include "base/text/text.h"
 #include "spec/macro.h"
 
@@ -8,18 +9,9 @@
 namespace orb::assembler {
 namespace {
 
-constexpr std::size_t step = 2; // blanks that a macro or a loop indents
+constexpr std::size_t step = 2; // spaces of indentation per macro or loop
 
-/// The first line of `text`, taken off with its end: LF, CR or CRLF.
-std::string_view take_line(std::string_view& text) {
-  const auto end = std::min(text.find_first_of("\r\n"), text.size());
-  const auto line = text.substr(0, end);
-  const bool both = text.substr(end).starts_with("\r\n");
-  text.remove_prefix(std::min(end + (both ? 2 : 1), text.size()));
-  return line;
-}
-
-/// Where the text that begins with the quote at `begin` ends.
+/// The end of the quoted text that begins at `begin`.
 std::size_t end_of_text(std::string_view line, std::size_t begin) {
   auto at = begin + 1;
   while (at < line.size() && line[at] != '"')
@@ -27,8 +19,8 @@ std::size_t end_of_text(std::string_view line, std::size_t begin) {
   return std::min(at + 1, line.size());
 }
 
-/// The blanks of a statement as they should be: none before a comma, one after it; none around the
-/// `=` of an operand; else one where there are any.
+/// Normalizes the spaces of a statement: none before a comma, one after it; none around the `=` of
+/// an operand; elsewhere runs become one.
 std::string respace(std::string_view code) {
   const bool is_const = code.starts_with(".const");
   std::string out;
@@ -78,7 +70,7 @@ std::string layout(std::string_view text) {
   std::string out;
   bool in_macro = false;
   std::size_t loops = 0;
-  bool blank_before = true; // none at the top
+  bool blank_before = true; // no blank line at the top
   while (!text.empty()) {
     const auto line = take_line(text);
     const auto split = remark_of(line);
@@ -97,7 +89,7 @@ std::string layout(std::string_view text) {
     }
     if (is(word, spec::MacroCommand::LoopEnd) && loops > 0)
       --loops;
-    // A remark by itself stands where the next statement would; above a macro it is at the margin.
+    // Indent a remark alone on its line like a statement; above a macro, keep it at the margin.
     auto indent = header ? 0 : (in_macro ? step : 0) + step * loops;
     if (code.empty() && !is_blank(line.empty() ? ' ' : line.front()))
       indent = 0;

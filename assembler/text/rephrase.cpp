@@ -29,17 +29,17 @@ using spec::MacroCommandInfo;
 using spec::MacroOperandKind;
 using spec::MacroUnit;
 
-constexpr std::size_t longest_constant = 240; // bytes; nobody writes longer constants
+constexpr std::size_t longest_constant = 240; // bytes; real constants are shorter
 
-/// A name in the letters that names have: `grün` is `grun`.
+/// Spells a name in ASCII: `grün` becomes `grun`.
 std::string plain_name(const std::string& word) {
   return std::any_of(word.begin(), word.end(), is_utf8_tail) ? repair::plain_letters(word) : word;
 }
 
 // ---- directives
 
-/// The flag that has the beginnings of all words that were said: `motor`, `controllo_motore`; null
-/// without.
+/// Finds the flag that contains the beginnings of all given words: `motor`, `controllo_motore`;
+/// null if there is none.
 const spec::MacroFlagInfo* flag_called(std::string_view said) {
   constexpr std::size_t beginning = 3; // letters
   const auto parts = repair::parts_of(said);
@@ -51,7 +51,7 @@ const spec::MacroFlagInfo* flag_called(std::string_view said) {
   return nullptr;
 }
 
-/// `.macro NAME id=40 flags=motor_control`, with its parts in any order.
+/// Reads `.macro NAME id=40 flags=motor_control`, with its parts in any order.
 std::vector<Rephrased> rephrase_header(const Tokens& line) {
   enum class In : std::uint8_t { Name, Id, More, Flags } in = In::Name;
   std::string name;
@@ -111,7 +111,7 @@ std::vector<Rephrased> rephrase_header(const Tokens& line) {
   }
   if (name.empty() || (says_id && id.empty()))
     return {};
-  std::vector<std::string> ways; // to read the id
+  std::vector<std::string> ways; // possible readings of the id
   if (const auto hex = hexadecimal(id); id.empty() || (hex && *hex <= UINT8_MAX))
     ways.push_back(id);
   for (const int base : {10, 16})
@@ -130,7 +130,7 @@ std::vector<Rephrased> rephrase_header(const Tokens& line) {
   return {{written(ways[0]), sure && !marked, ways.size() > 1 ? written(ways[1]) : ""}};
 }
 
-/// `.const NAME = 100`
+/// Reads `.const NAME = 100`.
 std::vector<Rephrased> rephrase_constant(Tokens line, const repair::Quantities& constants) {
   if (line.size() > 4 && line[1].is_word() && line[2].is_word()) // `const int step = 500`
     line.erase(line.begin() + 1);
@@ -161,7 +161,7 @@ struct Command {
 /// A part of a word of a line.
 struct Part {
   std::string text;
-  std::string means; ///< in English
+  std::string means; ///< its English meaning
   std::size_t token = 0;
 };
 
@@ -169,17 +169,17 @@ bool says_nothing(const Part& part) {
   return repair::is_called("", part.text) || repair::is_called("set", part.text);
 }
 
-/// Whether a word can stand for a part of a mnemonic: `warte` for `wait`, `stopp` for `stopped`.
+/// True if a word can denote a part of a mnemonic: `warte` for `wait`, `stopp` for `stopped`.
 bool stands_for(const Part& said, const std::string& part) {
   constexpr std::size_t stem = 4;   // letters
-  constexpr std::size_t little = 2; // as has `on`
+  constexpr std::size_t little = 2; // such as `on`
   return said.text == part || said.means == part || repair::is_called(part, said.text) ||
          (std::min(said.text.size(), part.size()) >= stem &&
           (part.starts_with(said.text) || said.text.starts_with(part))) ||
          (part.size() == little && said.text.size() <= little + 1 && is_letter(said.text[0]));
 }
 
-/// A mnemonic that is written so, or is called so.
+/// Finds a mnemonic by its spelling or by a common name.
 const MacroCommandInfo* command_called(const std::string& words) {
   const auto bare = [](std::string_view word) {
     std::string letters(word);
@@ -196,7 +196,7 @@ const MacroCommandInfo* command_called(const std::string& words) {
   return nullptr;
 }
 
-/// Parts of the words of a line; of `set_sd 2` the number, too.
+/// Splits the words of a line into parts; includes the number of `set_sd 2`.
 std::vector<Part> parts_of_words(const Tokens& line) {
   constexpr std::size_t most = 8;
   std::vector<Part> parts;
@@ -212,15 +212,15 @@ std::vector<Part> parts_of_words(const Tokens& line) {
   return parts;
 }
 
-/// The command that most of the first words of a line name: side by side, or apart and in other
-/// languages. None where two name as much.
+/// Finds the command that matches most of the first words of a line: joined or apart, in any
+/// language. Returns none on a tie.
 Command command_of(const Tokens& line) {
   const auto parts = parts_of_words(line);
   const MacroCommandInfo* best = nullptr;
-  std::uint32_t best_used = 0; // a bit a part
+  std::uint32_t best_used = 0; // one bit per part
   bool sure = true;
   bool tied = false;
-  // Whether the words that are used are used as a whole, and those before them say nothing.
+  // True if every used word is used whole and the words before it mean nothing.
   const auto leaves_nothing = [&](std::uint32_t used) {
     for (std::size_t i = 0; i < parts.size(); ++i) {
       const bool is_used = (used >> i & 1U) != 0;
@@ -309,7 +309,8 @@ Operand operand_of(const spec::MacroOperand& row) {
   return operand;
 }
 
-/// `rgb 0 255120`: two bytes side by side, where only one way parts them. Whether there are some.
+/// Splits bytes written without a space, if only one split is valid: `rgb 0 255120`. Returns true
+/// if it split any.
 bool part_bytes(Tokens& values, const std::vector<Operand>& operands) {
   std::ptrdiff_t wanted = 0;
   for (const auto& operand : operands) {
@@ -338,7 +339,7 @@ bool part_bytes(Tokens& values, const std::vector<Operand>& operands) {
   return false;
 }
 
-/// The lines that wait so long; empty for what would be a page of them.
+/// The lines that wait this long; empty if they would be too many.
 std::string delays(const std::string& time) {
   constexpr std::int64_t most_lines = 9;
   const auto& delay = spec::info(MacroCommand::Delay);
@@ -396,7 +397,7 @@ std::vector<Rephrased> rephrase_command(const Command& command, const Tokens& wr
   if (command.info->command == MacroCommand::Delay)
     if (auto lines = delays(found->values[0]); lines.find('\n') != std::string::npos)
       return {{std::move(lines), command.sure && !is_digit(found->values[0].back())}};
-  // Names stay where they can: none may be left out before one that has none.
+  // Keep the names if every value has one, else only those of optional operands.
   bool all_named = true;
   for (std::size_t i = 0; i < operands.size(); ++i)
     all_named = all_named && (found->values[i].empty() || found->named[i]);
@@ -408,7 +409,8 @@ std::vector<Rephrased> rephrase_command(const Command& command, const Tokens& wr
     for (std::size_t i = 0; i < operands.size(); ++i) {
       if (all[i].empty())
         continue;
-      constexpr int most_seconds = 20; // of a time without a unit in a call, as Python has it
+      constexpr int most_seconds = 20; // limit for a time without a unit in a call, which means
+                                       // seconds, as in Python
       const auto number = parse_number<int>(all[i]);
       const bool seconds = calls && number && *number > 0 && *number <= most_seconds &&
                            operands[i].counts == Counts::Milliseconds;
@@ -422,7 +424,7 @@ std::vector<Rephrased> rephrase_command(const Command& command, const Tokens& wr
     return text;
   };
   auto text = text_of(found->values);
-  // Who calls `roll(0, 100)` may think of the heading first, as other interfaces have it.
+  // In `roll(0, 100)` the author may mean the heading first, as in other interfaces.
   if (rolls && calls && !found->named[0] && !found->named[1] && found->wait.empty() &&
       found->values[0] != found->values[1]) {
     auto exchanged = found->values;
@@ -439,8 +441,8 @@ std::vector<Rephrased> rephrase_command(const Command& command, const Tokens& wr
 
 } // namespace
 
-Elsewhere look_elsewhere(std::string_view text) {
-  Elsewhere found;
+SurroundingText read_surroundings(std::string_view text) {
+  SurroundingText found;
   while (!text.empty()) {
     const auto end = std::min(text.find_first_of("\r\n"), text.size());
     const auto line = text.substr(0, end);
@@ -459,7 +461,7 @@ Elsewhere look_elsewhere(std::string_view text) {
   return found;
 }
 
-std::vector<Rephrased> rephrase(const Tokens& written, const Elsewhere& elsewhere) {
+std::vector<Rephrased> rephrase(const Tokens& written, const SurroundingText& elsewhere) {
   auto line = written;
   for (const auto& one : rewrites())
     if (!line.empty())

@@ -11,17 +11,18 @@
 
 namespace orb::assembler {
 
-/// What the rest of a file says.
-struct Elsewhere {
+/// Names defined in the rest of a file.
+struct SurroundingText {
   repair::Quantities constants;
-  std::vector<std::string> macros; ///< by their names
-  std::vector<std::string> names;  ///< of constants, whatever their values
+  std::vector<std::string> macros; ///< names of macros
+  std::vector<std::string> names;  ///< names of constants, whatever their values
 };
-Elsewhere look_elsewhere(std::string_view text);
+SurroundingText read_surroundings(std::string_view text);
 
-/// A line as macros have it: without the signs of others, its command found by what people call it,
-/// its operands in the order of the table, each in its unit. A wait that no operand takes is a line
-/// of its own.
-std::vector<repair::Rephrased> rephrase(const repair::Tokens& line, const Elsewhere& elsewhere);
+/// Rewrites a foreign line as macro source: strips foreign punctuation, finds the command by its
+/// common names, puts the operands into table order and native units. A wait that no operand takes
+/// becomes its own line.
+std::vector<repair::Rephrased> rephrase(const repair::Tokens& line,
+                                        const SurroundingText& elsewhere);
 
 } // namespace orb::assembler

@@ -59,7 +59,7 @@ void drop_parentheses(Tokens& line) {
   if (std::any_of(line.begin(), line.end(), [](const Token& token) {
         return token.is("+") || token.is("*") || token.is("/");
       }))
-    return; // they may be of a sum
+    return; // they may belong to a sum
   for (std::size_t i = line.size(); i-- > 0;)
     if (line[i].is("(") || line[i].is(")")) {
       const bool opens = line[i].is("(");
@@ -104,7 +104,7 @@ void join_decimals(Tokens& line) {
   line.erase(line.begin() + 2, line.begin() + 4);
 }
 
-/// Whether a line that is no command gives an id.
+/// True if a line that is not a command gives an id.
 bool says_id(const Tokens& line) {
   return !is_command(line[0]) && std::any_of(line.begin() + 1, line.end(), [](const Token& token) {
     return token.is_word() && equal_words(token.text, "id");
@@ -112,7 +112,7 @@ bool says_id(const Tokens& line) {
 }
 
 void begin_macro(Tokens& line) {
-  constexpr std::size_t most = 4; // tokens, with a label in front
+  constexpr std::size_t most = 4; // tokens, including a label
   const auto word = [](const Token& token) {
     return std::string_view(token.text).substr(token.text.starts_with('.') ? 1 : 0);
   };

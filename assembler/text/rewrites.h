@@ -9,15 +9,15 @@
 
 namespace orb::assembler {
 
-/// A way to write lines in other assemblers, JSON, YAML and calls, which becomes that of macros.
+/// A rewrite from other assemblers, JSON, YAML or calls to macro source.
 struct Rewrite {
   std::string_view does;
   void (*apply)(repair::Tokens& line);
-  std::string_view before; ///< an example, which is its test
+  std::string_view before; ///< an example, which is also its test
   std::string_view after;
 };
 
-/// In the order in which they are applied.
+/// In the order of application.
 std::span<const Rewrite> rewrites();
 
 } // namespace orb::assembler

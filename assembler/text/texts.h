@@ -2,7 +2,7 @@
 
 #include "base/texts.h"
 
-/// What is said about macros: `texts::NotACommand(word)`.
+/// The messages about macros: `texts::NotACommand(word)`.
 namespace orb::assembler::texts {
 
 using namespace orb::texts;

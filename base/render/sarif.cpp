@@ -20,7 +20,7 @@ std::string_view level_of(Severity severity) {
   return severity == Severity::Info ? "note" : to_string(severity);
 }
 
-/// A file name as a URI reference: what is not plain is percent-encoded.
+/// The file name as a URI reference, percent-encoded as needed.
 std::string uri_of(std::string_view name) {
   if (name == "<stdin>")
     return "stdin";
@@ -42,7 +42,7 @@ std::string uri_of(std::string_view name) {
   return out;
 }
 
-/// SARIF counts columns in code points here.
+/// The column in code points: the log declares that unit.
 std::size_t column_of(const Source& source, Position place) {
   return code_points(source.line(place.line).substr(0, place.column - 1)) + 1;
 }
@@ -75,8 +75,8 @@ Json rule_json(const Rule& rule, const HelpUri& help_uri) {
   return json;
 }
 
-/// What stays of a finding when others come and go above it: its rule, the text of its line, and
-/// which of several such it is.
+/// Makes fingerprints that survive changes above a finding: the rule, the text of its line, and a
+/// counter for equal ones.
 class Fingerprints {
 public:
   std::string next(const Source& source, const Diagnostic& diagnostic) {
@@ -144,7 +144,7 @@ std::string render_sarif(const std::vector<FileFindings>& files, const HelpUri& 
     Fingerprints fingerprints;
     for (const auto& diagnostic : file.diagnostics) {
       auto result = result_json(*file.source, diagnostic, index_of(diagnostic.rule));
-      // The key under which code hosts look for it.
+      // GitHub and other code hosts look for this key.
       result["partialFingerprints"] = {
           {"primaryLocationLineHash", fingerprints.next(*file.source, diagnostic)}};
       results.push_back(std::move(result));

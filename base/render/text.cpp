@@ -16,26 +16,8 @@ std::string_view gcc_word(Severity severity) {
   return severity == Severity::Info ? "note" : to_string(severity);
 }
 
-Message severity_word(Severity severity) {
-  switch (severity) {
-  case Severity::Info: return texts::Info();
-  case Severity::Warning: return texts::Warning();
-  case Severity::Error: return texts::Error();
-  }
-  return texts::Error();
-}
-
-Role role_of(Severity severity) {
-  switch (severity) {
-  case Severity::Info: return Role::Note;
-  case Severity::Warning: return Role::Warning;
-  case Severity::Error: return Role::Error;
-  }
-  return Role::Error;
-}
-
-/// The source line of `span` and a caret line under it. Long lines are cut to a window around the
-/// caret; the window begins at a code point.
+/// The source line of `span` with a caret line under it. Long lines are cut to a window around the
+/// caret that begins at a code point.
 std::string excerpt(const Source& source, Span span, Role role, Style style) {
   const auto place = source.position(span.begin);
   const auto line = source.line(place.line);
@@ -63,6 +45,24 @@ std::string excerpt(const Source& source, Span span, Role role, Style style) {
 }
 
 } // namespace
+
+Message severity_word(Severity severity) {
+  switch (severity) {
+  case Severity::Info: return texts::Info();
+  case Severity::Warning: return texts::Warning();
+  case Severity::Error: return texts::Error();
+  }
+  return texts::Error();
+}
+
+Role role_of(Severity severity) {
+  switch (severity) {
+  case Severity::Info: return Role::Note;
+  case Severity::Warning: return Role::Warning;
+  case Severity::Error: return Role::Error;
+  }
+  return Role::Error;
+}
 
 std::string in_one_line(const Diagnostic& diagnostic) {
   auto line = in_english(diagnostic.message);

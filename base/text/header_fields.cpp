@@ -17,9 +17,9 @@ BodyLength body_length(std::string_view header) {
         !equal_words(trim(line.substr(0, colon)), "Content-Length"))
       continue;
     const auto bytes = parse_number<std::size_t>(trim(line.substr(colon + 1)));
-    if (!bytes || (length.said == BodyLength::Said::Length && length.bytes != *bytes))
-      return {BodyLength::Said::Nonsense, 0};
-    length = {BodyLength::Said::Length, *bytes};
+    if (!bytes || (length.said == BodyLength::Found::Length && length.bytes != *bytes))
+      return {BodyLength::Found::Nonsense, 0};
+    length = {BodyLength::Found::Length, *bytes};
   }
   return length;
 }

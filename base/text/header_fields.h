@@ -5,19 +5,19 @@
 
 namespace orb {
 
-/// What a header says of the length of the body behind it.
+/// The length of the body as declared by a header.
 struct BodyLength {
-  enum class Said : unsigned char {
+  enum class Found : unsigned char {
     Nothing,
-    Nonsense, ///< no whole number that fits, or two that differ
+    Nonsense, ///< not a whole number that fits, or two that differ
     Length
   };
-  Said said = Said::Nothing;
-  std::size_t bytes = 0; ///< of a Length
+  Found said = Found::Nothing;
+  std::size_t bytes = 0; ///< set for a Length
 };
 
-/// Reads `Content-Length` among the lines of a header, which end with CR, LF or both: of HTTP
-/// (RFC 9110, §8.6), and of the protocols of editors, which took it from there. Any bytes may come.
+/// Reads `Content-Length` from a header whose lines end with CR, LF or both: HTTP (RFC 9110, §8.6)
+/// and the editor protocols derived from it. Accepts any bytes.
 BodyLength body_length(std::string_view header);
 
 } // namespace orb

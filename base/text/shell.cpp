@@ -12,7 +12,7 @@ bool is_plain(char c) {
          std::string_view("/._-+=:,@%").find(c) != std::string_view::npos;
 }
 
-/// What a POSIX shell still reads between single quotes: only their end.
+/// Quotes for a POSIX shell. Within single quotes, only the quote itself needs an escape.
 std::string in_single_quotes(std::string_view word) {
   std::string out = "'";
   for (const char c : word)
@@ -25,7 +25,7 @@ std::string in_single_quotes(std::string_view word) {
 std::string shell_word(std::string_view word) {
   if (!word.empty() && std::all_of(word.begin(), word.end(), is_plain))
     return std::string(word);
-  // `!` stands for a command of the past where somebody types.
+  // An interactive shell expands `!` from its history.
   if (word.find_first_of("\"$`\\!") != std::string_view::npos)
     return in_single_quotes(word);
   return '"' + std::string(word) + '"';

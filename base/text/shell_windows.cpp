@@ -17,8 +17,8 @@ bool is_plain(char c) {
 std::string shell_word(std::string_view word) {
   if (!word.empty() && std::all_of(word.begin(), word.end(), is_plain))
     return std::string(word);
-  // A program takes its command line apart by the rules of C: a backslash means itself unless a
-  // quote follows those before it.
+  // The C runtime splits the command line: a backslash is literal unless a run of them precedes a
+  // quote.
   std::string out = "\"";
   std::size_t backslashes = 0;
   for (const char c : word) {

@@ -12,10 +12,10 @@ namespace orb {
 namespace {
 
 constexpr std::size_t longest_word =
-    64; // longer ones are not misspellings, and the table is square
+    64; // longer words are not misspellings, and the table is quadratic
 
-/// Optimal string alignment distance, without regard to case; no more is said of those over
-/// `most` than that they are.
+/// Optimal string alignment distance, ignoring case. Distances over `most` are returned as `most` +
+/// 1.
 std::size_t distance(std::string_view a, std::string_view b, std::size_t most) {
   if (a.size() > b.size() + most || b.size() > a.size() + most)
     return most + 1;
@@ -62,7 +62,7 @@ std::optional<std::string> closest(std::string_view word,
     if (equal_words(word, candidate))
       return std::string(candidate);
   std::optional<std::string> best;
-  // A word of which nothing would be left is not misspelt: `x` never becomes `y`.
+  // Replacing every letter is not a misspelling: `x` never becomes `y`.
   auto limit = std::min(std::max<std::size_t>(1, word.size() / 3) + 1, word.size());
   for (const auto candidate : candidates) {
     const auto d = distance(word, candidate, limit - 1);

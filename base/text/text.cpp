@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#ifndef __cpp_lib_to_chars // as in the browser's build
+#ifndef __cpp_lib_to_chars // missing in the browser's build
 #include <cerrno>
 #include <cstdlib>
 #endif
@@ -12,7 +12,7 @@
 namespace orb {
 namespace {
 
-/// Takes the digits from the front; whether there was one.
+/// Consumes the digits at the front; returns true if there were any.
 bool take_digits(std::string_view& text) {
   const auto end = std::find_if_not(text.begin(), text.end(), is_digit);
   const auto count = static_cast<std::size_t>(end - text.begin());
@@ -26,7 +26,7 @@ bool take(std::string_view& text, std::string_view any_of) {
   return taken;
 }
 
-/// Whether `text` is `-1.5e-3` or less of that: no `inf` and no hexadecimal digits.
+/// True if `text` has the form `-1.5e-3` or a part of it. Excludes `inf` and hexadecimal digits.
 bool is_real(std::string_view text, std::chars_format form) {
   take(text, "-");
   bool digits = take_digits(text);
@@ -94,7 +94,7 @@ std::string escape_markup(std::string_view text) {
     case '<': out += "&lt;"; break;
     case '>': out += "&gt;"; break;
     case '"': out += "&quot;"; break;
-    case '\n': out += "&#10;"; break; // a line end of an attribute would be read as a blank
+    case '\n': out += "&#10;"; break; // XML would read a line ending in an attribute as a space
     default: out += static_cast<unsigned char>(c) < ' ' && c != '\t' ? '?' : c;
     }
   for (const std::string_view forbidden : {"\xEF\xBF\xBE", "\xEF\xBF\xBF"}) // U+FFFE, U+FFFF

@@ -1,6 +1,6 @@
 #pragma once
 
-// Characters and words of ASCII, the same in every locale.
+// ASCII characters and words, independent of the locale.
 
 #include <algorithm>
 #include <charconv>
@@ -29,33 +29,33 @@ constexpr char to_lower(char c) {
 constexpr char to_upper(char c) {
   return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
 }
-/// Whether a byte continues a character of UTF-8.
+/// True if the byte continues a UTF-8 sequence.
 constexpr bool is_utf8_tail(char c) {
   return (static_cast<unsigned char>(c) & 0xC0) == 0x80;
 }
 
-/// Whether two words have the same letters, in capitals or not.
+/// True if two words are equal, ignoring case.
 constexpr bool equal_words(std::string_view a, std::string_view b) {
   return std::equal(a.begin(), a.end(), b.begin(), b.end(),
                     [](char x, char y) { return to_lower(x) == to_lower(y); });
 }
 
-/// Whether a file's name ends so, in capitals or not: `ROBOT.ORB` is a `.orb`, too.
+/// True if the file name has this extension, ignoring case: `ROBOT.ORB` is a `.orb`.
 constexpr bool has_ending(std::string_view name, std::string_view ending) {
   return name.size() >= ending.size() &&
          equal_words(name.substr(name.size() - ending.size()), ending);
 }
 
-/// In small letters; bytes beyond ASCII stay.
+/// Converts to lower case; bytes beyond ASCII stay.
 std::string lower(std::string_view text);
 
-/// Whether `word` is one of `words`, which have a blank between them; case does not count.
+/// True if `word` is one of the space-separated `words`, ignoring case.
 bool holds(std::string_view words, std::string_view word);
 
-/// The words of a text that has one blank between two of them.
+/// Splits at single spaces.
 std::vector<std::string_view> words_in(std::string_view text);
 
-/// How the lines of a text end: as its first one does, else with LF.
+/// The line ending of a text: that of its first line, else LF.
 constexpr std::string_view line_end_of(std::string_view text) {
   const auto at = text.find_first_of("\r\n");
   if (at == std::string_view::npos)
@@ -63,7 +63,7 @@ constexpr std::string_view line_end_of(std::string_view text) {
   return text.substr(at, text.substr(at).starts_with("\r\n") ? 2 : 1);
 }
 
-/// `text` without the blanks at its ends.
+/// Removes whitespace at both ends.
 constexpr std::string_view trim(std::string_view text) {
   while (!text.empty() && is_blank(text.front()))
     text.remove_prefix(1);
@@ -72,19 +72,19 @@ constexpr std::string_view trim(std::string_view text) {
   return text;
 }
 
-/// `1 byte`, `2 bytes`: a count and its noun, whose plural ends in an s.
+/// A count and its noun: `1 byte`, `2 bytes`. The plural must end in an s.
 std::string plural(std::uint64_t count, std::string_view noun);
 
-/// `text` as a text or an attribute of HTML, SVG and XML: valid UTF-8, without the characters that
-/// XML 1.0 forbids.
+/// Escapes `text` for content or attributes of HTML, SVG and XML: valid UTF-8, without the
+/// characters that XML 1.0 forbids.
 std::string escape_markup(std::string_view text);
 
 /// parse_number() for numbers with a point and, unless `form` is fixed, an exponent.
 std::optional<double> parse_real(std::string_view text,
                                  std::chars_format form = std::chars_format::general);
 
-/// The number that all of `text` is, in the form of std::from_chars: no sign `+`, no blanks.
-/// `form` is the base of a whole number, or a std::chars_format. Nothing where it does not fit.
+/// Parses all of `text` as a number, as std::from_chars does: no `+` sign, no whitespace. `form` is
+/// the base of a whole number, or a std::chars_format. Returns nothing if it does not fit.
 template <typename Number, typename... Form>
 std::optional<Number> parse_number(std::string_view text, Form... form) {
   if constexpr (std::is_floating_point_v<Number>) {

@@ -12,16 +12,17 @@ bool continues(char c) {
   return (static_cast<unsigned char>(c) & 0xC0) == 0x80;
 }
 
-/// Whether the code point at the front is one that a terminal shows and does not obey.
+/// True if the code point at the front is printable, not a terminal control.
 bool is_shown(std::string_view text) {
   const auto length = utf8_length(text);
   const auto lead = static_cast<unsigned char>(text.front());
-  // C1 controls (U+0080 to U+009F) drive terminals just as the C0 ones do.
+  // C1 controls (U+0080 to U+009F) drive terminals just as C0 controls do.
   const bool c1 = length == 2 && lead == 0xC2 && static_cast<unsigned char>(text[1]) < 0xA0;
   return length > 0 && lead >= 0x20 && lead != 0x7F && !c1;
 }
 
-/// The length of a sequence `ESC [ digits m` (colour) or `ESC [ K` (clear the line), else 0.
+/// The length of a sequence `ESC [ digits m` (colour) or `ESC [ K` (clear the line) at the front,
+/// else 0.
 std::size_t own_sequence(std::string_view text) {
   if (!text.starts_with("\x1b["))
     return 0;

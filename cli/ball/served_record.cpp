@@ -17,7 +17,7 @@ constexpr std::string_view page_title = "orb ball";
 
 } // namespace
 
-/// Sees one ball.
+/// Watches one ball.
 class ServedRecord::Seat final : public serve::Spectator {
 public:
   Seat(ServedRecord& record, int index) : record_(record), name_(std::to_string(index + 1)) {
@@ -95,7 +95,7 @@ serve::Spectator* ServedRecord::watch(int index) {
   return seats_.emplace_back(std::make_unique<Seat>(*this, index)).get();
 }
 
-/// As it comes: a ball may be served for days.
+/// Writes at once: a ball may be served for days.
 void ServedRecord::put(std::string_view text) {
   if (!options_.trace_out.empty()) {
     if (!broken_ && !(file_ << text << std::flush))
@@ -107,7 +107,7 @@ void ServedRecord::put(std::string_view text) {
     return;
   try {
     print_out(text);
-  } catch (const OutputError& error) { // the balls are kept before anything is said
+  } catch (const OutputError& error) { // keeps the balls before reporting anything
     lost_ = error;
   }
 }

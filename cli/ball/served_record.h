@@ -18,29 +18,29 @@
 
 namespace orb::cli {
 
-/// What is kept of served balls.
+/// What to record of served balls.
 struct RecordOptions {
   int count = 1;
   spec::Robot robot = spec::Robot::Sphero;
   std::optional<report::TraceFormat> trace;
   std::string trace_out;                     ///< empty: standard output
   std::string report;                        ///< empty for none
-  std::optional<report::Course> course;      ///< that they drive through
-  std::vector<vm::TimedStimulus> stimulus{}; ///< what else happens to each: its walls are drawn
+  std::optional<report::Course> course;      ///< the course that they drive through
+  std::vector<vm::TimedStimulus> stimulus{}; ///< other stimuli for each ball; its walls are drawn
 };
 
-/// Traces served balls, and writes a report of them when they are not served any more.
+/// Traces served balls, and writes a report when serving ends.
 class ServedRecord {
 public:
   explicit ServedRecord(RecordOptions options);
   ~ServedRecord();
 
-  /// Opens the file for the trace.
+  /// Opens the trace file.
   tl::expected<void, IoError> open();
   serve::Spectator* watch(int index);
-  /// Writes the report; says why the trace could not be written, if it could not.
+  /// Writes the report. Fails if the trace could not be written.
   tl::expected<void, IoError> finish();
-  /// What ended standard output; nothing where it did not end.
+  /// The error that ended standard output; nothing if it is still open.
   const std::optional<OutputError>& lost() const { return lost_; }
 
 private:

@@ -1,5 +1,5 @@
-// Bluetooth LE in the program `orb`: the functions of uploader/bluez.h and serve/fake_bluez.h, from
-// a module.
+// Bluetooth LE for the program `orb`: the functions of uploader/bluez.h and serve/fake_bluez.h,
+// loaded from a module.
 
 #include "cli/bluez/module.h"
 #include "uploader/no_gatt.h"
@@ -17,15 +17,16 @@ namespace {
 
 using cli::BluezModule;
 
-/// The module lies at a place that is given relative to the program's. Not by `$ORIGIN`, which
-/// under a sanitizer is the sanitizer's own.
+/// Loads the module from its path relative to the program. `$ORIGIN` would not work: with a
+/// sanitizer it is the sanitizer's folder.
 tl::expected<const BluezModule*, std::string> load() {
   std::error_code error;
   const auto program = std::filesystem::read_symlink("/proc/self/exe", error);
-  if (error) // and not from the current folder, where anybody may have put one
+  if (error) // never fall back to the current folder: anybody may have put a module there
     return tl::unexpected("/proc/self/exe: " + error.message());
   const auto path = (program.parent_path() / ORB_BLUEZ_MODULE).lexically_normal().string();
-  auto* const library = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL); // until the program ends
+  // stays loaded until the program ends
+  auto* const library = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
   if (library == nullptr)
     return tl::unexpected(std::string(dlerror()));
   const auto* found = static_cast<const BluezModule*>(dlsym(library, "orb_bluez_module"));
@@ -61,7 +62,7 @@ std::unique_ptr<Gatt> make_bluez_gatt(const Endpoint& endpoint) {
 }
 
 tl::expected<std::vector<SeenDevice>, BleError>
-scan_ble(Duration time, const Budgets& budgets, const Stop& stop,
+scan_ble(Duration time, const Budgets& budgets, const StopRequests& stop,
          const std::function<void(std::size_t)>& progress) {
   if (!bluez_module())
     return tl::unexpected(not_loaded());

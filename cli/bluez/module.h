@@ -5,11 +5,11 @@
 
 namespace orb::cli {
 
-/// The parts of the program that need D-Bus, as the module `bluez.so` gives them. D-Bus brings nine
-/// libraries, which take a quarter of the time of a short command and which few commands need, so
-/// the module is loaded when Bluetooth LE is asked for.
+/// The parts of the program that need D-Bus, exported by the module `bluez.so`. D-Bus pulls in nine
+/// libraries, a quarter of the run time of a short command, and few commands need it. So the module
+/// is loaded only when Bluetooth LE is used.
 struct BluezModule {
-  const char* build; ///< names what the program and the module give each other; must be the same
+  const char* build; ///< identifies the interface between program and module; must match
   decltype(&uploader::make_bluez_gatt) make_gatt;
   decltype(&uploader::scan_ble) scan;
   decltype(&serve::make_fake_bluez) make_fake;
@@ -18,6 +18,6 @@ struct BluezModule {
 } // namespace orb::cli
 
 extern "C" {
-/// The name that is looked up in the module.
+/// The symbol to look up in the module.
 extern const orb::cli::BluezModule orb_bluez_module;
 }

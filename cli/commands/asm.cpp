@@ -21,11 +21,11 @@ namespace fs = std::filesystem;
 
 using assembler::Written;
 
-/// Where macros are written.
+/// Where to write macros.
 struct Destination {
   std::string path; ///< empty: stdout
   bool is_folder = false;
-  std::string ending; ///< of a file
+  std::string ending; ///< file extension
 };
 
 Destination destination_of(const std::string& out) {
@@ -35,8 +35,8 @@ Destination destination_of(const std::string& out) {
   return {out, out.ends_with('/') || fs::is_directory(path), path.extension().string()};
 }
 
-/// The findings, and whether the bytes are of no use. What a macro does wrong while its bytes can
-/// be sent is a warning here; `orb check` weighs it.
+/// Prints the findings. Returns true if the bytes are useless. A mistake that still gives bytes to
+/// send is a warning here; `orb check` decides how severe it is.
 bool report(const Context& context, const Source& source, assembler::Assembly& assembly) {
   auto found = assembler::lint(source, assembly);
   bool fatal = assembly.has_errors();
@@ -54,11 +54,11 @@ bool report(const Context& context, const Source& source, assembler::Assembly& a
   return fatal;
 }
 
-/// A file to write; standard output where it has no path.
+/// A file to write; standard output if it has no path.
 struct Output {
   std::string path;
   std::string text;
-  std::string note; ///< what to say once it is written
+  std::string note; ///< printed once it is written
 };
 
 using Outputs = tl::expected<std::vector<Output>, Failure>;
@@ -67,7 +67,7 @@ Outputs misuse(std::string message) {
   return tl::unexpected(Failure{ExitCode::Usage, std::move(message)});
 }
 
-/// A file for each macro in a folder.
+/// One file in a folder for each macro.
 std::vector<Output> in_folder(const std::string& folder, const std::vector<Written>& macros) {
   std::vector<Output> outputs;
   for (const auto& macro : macros) {
@@ -77,7 +77,7 @@ std::vector<Output> in_folder(const std::string& folder, const std::vector<Writt
   return outputs;
 }
 
-/// Where the macros of a source go: into a folder, or the only one into a file or to stdout.
+/// Decides where the macros of a source go: a folder, or, for a single one, a file or stdout.
 Outputs outputs_of(const Source& source, const std::vector<Written>& macros,
                    const Destination& destination) {
   if (destination.is_folder)
@@ -92,7 +92,7 @@ Outputs outputs_of(const Source& source, const std::vector<Written>& macros,
   return std::vector<Output>{{destination.path, macros[0].text, macros[0].size}};
 }
 
-/// The listings of all macros, one below the other.
+/// The listings of all macros, concatenated.
 Output listing_of(const std::vector<Written>& macros, const std::string& path) {
   Output output{path, {}, {}};
   for (const auto& macro : macros)

@@ -1,7 +1,9 @@
 #include "base/text/text.h"
+#include "cli/ball/served_judge.h"
 #include "cli/ball/served_record.h"
 #include "cli/commands/commands.h"
 #include "cli/context/console.h"
+#include "cli/context/language.h"
 #include "cli/input/inputs.h"
 #include "cli/model/checks.h"
 #include "cli/robot/ball_profile.h"
@@ -9,6 +11,7 @@
 #include "serve/server.h"
 
 #include "compiler/load.h"
+#include "disk/disk.h"
 #include "spec/firmware.h"
 #include "spec/robots.h"
 
@@ -20,6 +23,7 @@
 namespace orb::cli {
 namespace {
 
+/// The options of `orb ball`. Large because each of them is a field.
 struct BallArguments {
   std::optional<std::string> pty;
   std::string tcp;
@@ -39,13 +43,14 @@ struct BallArguments {
   std::string trace;
   std::string trace_out;
   std::string report;
+  std::string judge;
 };
 
-/// A client's waits are good to about a millisecond. Beyond this speed the ball would do more in
-/// that time than the client can tell (docs/ball.md has the measurement).
+/// A client's waits are accurate to about a millisecond. At a higher speed the ball would change
+/// too much in that time for the client to follow (docs/using/ball.md has the measurement).
 constexpr double greatest_speed = 10;
 
-/// How fast a ball may live.
+/// Checks the speed of a served ball's clock.
 Check speeds() {
   auto check = number_between(0.001, greatest_speed);
   check.problem = [inside = check.problem](const std::string& text) {
@@ -76,6 +81,22 @@ std::optional<serve::ServeOptions::Tcp> parse_address(std::string_view text) {
   return serve::ServeOptions::Tcp{host.empty() ? "127.0.0.1" : std::string(host), *port};
 }
 
+/// Writes the verdict in the format that the file extension names.
+void write_judgement(Context& context, const JudgedLog& log, const std::string& file) {
+  const auto say = say_in(context.ui_language);
+  const bool to_stdout = file == "-";
+  const auto text = has_ending(file, ".json") ? judged_json(log, say)
+                    : has_ending(file, ".xml")
+                        ? judged_junit(log)
+                        : judged_text(log, to_stdout ? context.out_style() : Style{}, say);
+  if (to_stdout)
+    print_out(text);
+  else if (const auto written = disk::write(file, as_bytes(text)); !written)
+    return fail(context, {ExitCode::File, written.error().message});
+  if (!log.is_clean() && context.exit == ExitCode::Done)
+    context.exit = ExitCode::BadInput;
+}
+
 void run_ball(Context& context, const BallArguments& arguments) {
   serve::ServeOptions options;
   options.count = arguments.count;
@@ -92,8 +113,8 @@ void run_ball(Context& context, const BallArguments& arguments) {
                                                 "127.0.0.1:4242",
                                                 arguments.tcp)});
   }
-  const auto& firmware = *spec::find_firmware(arguments.firmware); // the option is checked
-  options.robot = spec::find_robot(arguments.robot)->robot;        // checked, too
+  const auto& firmware = *spec::find_firmware(arguments.firmware); // the option has been checked
+  options.robot = spec::find_robot(arguments.robot)->robot;        // the option has been checked
   options.ball.driving = spec::driving(options.robot);
   if (!arguments.profile.empty()) {
     const bool named = options.robot != spec::Robot::Sphero;
@@ -144,8 +165,13 @@ void run_ball(Context& context, const BallArguments& arguments) {
     options.stimulus.insert(options.stimulus.begin(), walls.begin(), walls.end());
     record_options.course = *course;
   }
-  const bool has_data_out =
-      (record_options.trace && arguments.trace_out.empty()) || arguments.report == "-";
+  const bool has_data_out = (record_options.trace && arguments.trace_out.empty()) ||
+                            arguments.report == "-" || arguments.judge == "-";
+  std::optional<ServedJudge> judge;
+  if (!arguments.judge.empty()) {
+    judge.emplace(options.count, options.robot);
+    options.hear = [&](int index) { return judge->hear(index); };
+  }
   ServedRecord record(std::move(record_options));
   if (const auto opened = record.open(); !opened)
     return fail(context, {ExitCode::File, opened.error().message});
@@ -154,10 +180,7 @@ void run_ball(Context& context, const BallArguments& arguments) {
   if (arguments.control)
     options.control = read_input;
   options.note = [&context](std::string_view message) { print_note(context, message); };
-  options.warn = [&context](std::string_view message) {
-    print_err(
-        fmt::format("orb: {}: {}\n", context.err_style().paint(Role::Warning, "warning"), message));
-  };
+  options.warn = [&context](std::string_view message) { print_warning(context, message); };
   const auto served = serve::serve(options);
   const auto recorded = record.finish();
   if (!served)
@@ -166,6 +189,8 @@ void run_ball(Context& context, const BallArguments& arguments) {
     throw *record.lost();
   else if (!recorded)
     fail(context, {ExitCode::File, recorded.error().message});
+  if (judge)
+    write_judgement(context, judge->finish(), arguments.judge);
 }
 
 } // namespace
@@ -179,9 +204,10 @@ void add_ball(const Command& orb, Context& context) {
                       "orb ball --bluez=pieces=1..20,drop-once@services\n"
                       "orb ball --robot bolt --tcp :4242\n"
                       "orb ball --tcp :4242 --trace json --report drive.html\n"
+                      "orb ball --robot bolt --tcp :4242 --judge client.xml\n"
                       "printf 'at 2s shake\\n' | orb ball --tcp :4242 --control");
   auto arguments = std::make_shared<BallArguments>();
-  // A flag, because flags take a value only after `=`.
+  // A flag rather than an option: a flag takes a value only after `=`.
   command
       .add_flag("--pty", arguments->pty,
                 "serve on a pty (the default without --tcp); =LINK also creates a symlink to it")
@@ -205,7 +231,7 @@ void add_ball(const Command& orb, Context& context) {
       .show_default();
   command
       .add_option("--seed", arguments->seed,
-                  "seeds all random choices; the address depends on it, too")
+                  "the seed of all random choices; the address depends on it, too")
       .check(whole_number(0, std::numeric_limits<std::uint64_t>::max()))
       .show_default();
   command.add_option("--firmware", arguments->firmware, "the firmware that the ball runs")
@@ -225,7 +251,7 @@ void add_ball(const Command& orb, Context& context) {
       .type_name("PLAN");
   add_stimulus_option(command, arguments->stimuli);
   add_course_option(command, arguments->course);
-  command.add_option("--state", arguments->state, "keeps flash and settings across runs")
+  command.add_option("--state", arguments->state, "keep flash and settings across runs")
       .type_name("FILE");
   command
       .add_option("--log", arguments->log,
@@ -236,7 +262,12 @@ void add_ball(const Command& orb, Context& context) {
       .check(one_of({"json", "csv"}));
   command.add_option("--trace-out", arguments->trace_out, "the file for the trace");
   command.add_option("--report", arguments->report,
-                     "writes a page at the end that plays everything back");
+                     "write a page at the end that plays everything back");
+  command
+      .add_option("--judge", arguments->judge,
+                  "says at the end what the clients did wrong, and then ends with code 1; .json, "
+                  "or .xml for JUnit")
+      .type_name("FILE");
   command.add_flag("--control", arguments->control,
                    "obey lines of standard input: stimuli such as `shake` or `at 5s push 90 120`, "
                    "`reset`, `state`; with several balls `2 shake` is for the second, others for "

@@ -4,7 +4,7 @@
 #include "cli/input/target.h"
 #include "compiler/check.h"
 #include "compiler/text/image.h"
-#include "compiler/text/parse.h"
+#include "compiler/text/parse_basic.h"
 #include "compiler/text/rules.h"
 #include "disk/disk.h"
 #include "run/line_map.h"
@@ -31,7 +31,7 @@ struct BuildOptions {
   bool native = false;
 };
 
-/// Prints the errors; the size is left to the image that is really built.
+/// Prints the errors. Findings about size are left to the image that is actually built.
 bool has_errors(Context& context, const Source& source, const std::vector<Diagnostic>& found) {
   bool errors = false;
   for (const auto& diagnostic : found) {
@@ -43,7 +43,7 @@ bool has_errors(Context& context, const Source& source, const std::vector<Diagno
   return errors;
 }
 
-bool write(Context& context, const std::string& path, std::string_view bytes) {
+bool write_bytes(Context& context, const std::string& path, std::string_view bytes) {
   if (path == "-") {
     print_out(bytes);
     return true;
@@ -73,10 +73,12 @@ void build_basic(Context& context, const BuildOptions& options, const Source& so
                              options.target.area, options.pack ? "" : "; try `--pack`")});
   }
   if (!options.map.empty() &&
-      !write(context, options.map, run::print_line_map(run::line_map(source.name(), image), image)))
+      !write_bytes(context, options.map,
+                   run::print_line_map(run::line_map(source.name(), image), image)))
     return;
   const auto listed = options.native ? run::Listed::MachineCode : run::Listed::Instructions;
-  if (write(context, options.out, options.listing ? run::listing(image, listed) : image.bytes))
+  if (write_bytes(context, options.out,
+                  options.listing ? run::listing(image, listed) : image.bytes))
     print_note(context,
                fmt::format("{} of {} bytes ({})", image.bytes.size(), room, options.target.area));
 }
@@ -94,20 +96,20 @@ void build_structured(Context& context, const BuildOptions& options, const Sourc
   }
   const auto& program = *input->program;
   if (!options.map.empty() &&
-      !write(context, options.map, run::print_line_map(program.lines, program.image)))
+      !write_bytes(context, options.map, run::print_line_map(program.lines, program.image)))
     return;
   const auto text = options.readable  ? structured::readable(*program.compiled)
                     : options.native  ? run::listing(program.image, run::Listed::MachineCode)
                     : options.listing ? structured::listing(*program.compiled, program.image)
                                       : program.image.bytes;
-  if (!write(context, options.out, text))
+  if (!write_bytes(context, options.out, text))
     return;
   const auto room = static_cast<std::size_t>(compiler::area_bytes(target));
   print_note(context, fmt::format("{} of {} bytes ({})", program.image.bytes.size(), room,
                                   options.target.area));
   if (!options.readable)
     return;
-  // Numbers by tens are longer than those that count by one.
+  // Line numbers in steps of ten take more bytes than those in steps of one.
   const auto bytes_as = [&](compiler::Packing packing) {
     return compiler::build_image(compiler::parse(text), packing).bytes.size();
   };

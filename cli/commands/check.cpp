@@ -29,7 +29,7 @@ struct CheckOptions {
   std::string lang;
   std::string format = "text";
   TargetOptions target;
-  std::string robot; ///< which drives; empty for any
+  std::string robot; ///< the robot that drives; empty for any
   Policy policy;
   assembler::LintOptions macro;
   bool fix = false;
@@ -64,7 +64,8 @@ run::Findings check_all(const CheckOptions& options, std::span<const SourceFile>
   auto target = options.target.target();
   auto macro = options.macro;
   if (!options.robot.empty())
-    target.robot = macro.robot = spec::find_robot(options.robot)->robot; // the options are checked
+    // the options have been checked
+    target.robot = macro.robot = spec::find_robot(options.robot)->robot;
   auto found = run::check_files(sources, target, macro, disk);
   testing::check_tests(sources, found.files, disk);
   for (auto& file : found.files)
@@ -72,7 +73,7 @@ run::Findings check_all(const CheckOptions& options, std::span<const SourceFile>
   return found;
 }
 
-/// Makes the safe fixes of a file until none is left, and writes it back where one was made.
+/// Applies the safe fixes of a file until none is left; writes the file back if any was applied.
 bool fix_one(Context& context, const CheckOptions& options, SourceFile& input) {
   const auto made = run::fix(input, [&](const SourceFile& file) {
     return check_all(options, {&file, 1}).files.front().diagnostics;
@@ -92,7 +93,7 @@ bool fix_one(Context& context, const CheckOptions& options, SourceFile& input) {
   return true;
 }
 
-/// The part of the documentation that explains a rule, as it was installed.
+/// The installed documentation page section that explains a rule.
 std::string page_of(const std::vector<reference::Section>& sections, const Rule& rule) {
   for (const auto& section : sections)
     for (const auto& entry : section.entries)
@@ -101,21 +102,21 @@ std::string page_of(const std::vector<reference::Section>& sections, const Rule&
   return {};
 }
 
-std::string_view verdict_of(const Considered& one) {
-  switch (one.verdict) {
-  case Considered::Verdict::Worse: return "no better";
-  case Considered::Verdict::Parses: return "parses";
-  case Considered::Verdict::Mends: return "mends";
+std::string_view effect_of(const Considered& one) {
+  switch (one.effect) {
+  case Considered::Effect::Worse: return "no better";
+  case Considered::Effect::Parses: return "parses";
+  case Considered::Effect::Mends: return "mends";
   }
   return {};
 }
 
-/// The lines that were tried as the line to write, in order: what came of each, the step that
-/// proposed it, and its cost.
+/// Lists the candidate lines in the order tried: the result of each, the step that proposed it, and
+/// its cost.
 std::string render_repairs(const Diagnostic& finding) {
   std::string out;
   for (const auto& one : finding.considered)
-    out += fmt::format("  tried: `{}`: {} ({}, cost {})\n", to_printable(one.line), verdict_of(one),
+    out += fmt::format("  tried: `{}`: {} ({}, cost {})\n", to_printable(one.line), effect_of(one),
                        one.origin, one.cost);
   return out;
 }
@@ -208,7 +209,7 @@ void add_check(const Command& orb, Context& context) {
   add_policy_options(command, options->policy);
   command.add_flag("--fix", options->fix, "apply the safe fixes and write the files back");
   command.add_flag("--explain-repairs", options->explain_repairs,
-                   "print the lines that were tried as the line to write");
+                   "print the candidates that were tried for the suggested line");
   command.add_flag("--watch", options->watch, "check again whenever a file changes");
   command.callback([&context, options] {
     if (options->watch)

@@ -4,7 +4,7 @@
 #include "cli/model/command_line.h"
 
 #include "uploader/bluez.h"
-#include "vm/native/native.h"
+#include "vm/machine/native/native.h"
 
 #include <algorithm>
 #include <array>
@@ -18,7 +18,7 @@ namespace {
 
 std::string version(const Command& orb) {
   auto text = fmt::format("orb {}", ORB_VERSION);
-  if (orb.find("--verbose")->given()) { // its variable is set only after the version is asked for
+  if (orb.find("--verbose")->given()) { // --version is handled before the option's variable is set
     text += vm::has_native_code() ? "\nmachine code for orbBasic: x86-64"
                                   : "\nmachine code for orbBasic: none; programs are interpreted";
     const auto no_ble = uploader::no_ble();
@@ -65,7 +65,7 @@ constexpr auto commands = std::to_array<CommandRow>({
     {"upload", add_upload},
 });
 
-/// What orb is without a command.
+/// Makes the command line of orb without its commands.
 std::unique_ptr<CommandLine> frame(Context& context) {
   auto line = std::make_unique<CommandLine>(
       "orb", "orb writes, checks, runs and flashes orbBasic programs and macros for Sphero robots.",
@@ -99,7 +99,7 @@ std::unique_ptr<CommandLine> only_command(Context& context, std::string_view wor
   const auto* const row = std::find_if(commands.begin(), commands.end(),
                                        [&](const CommandRow& one) { return one.name == word; });
   if (row == commands.end() || row->add == add_explain || row->add == add_man)
-    return nullptr; // those two tell of all commands
+    return nullptr; // these two describe all commands
   auto line = frame(context);
   row->add(line->root(), context);
   return line;

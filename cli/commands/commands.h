@@ -10,16 +10,16 @@ namespace orb::cli {
 
 class CommandLine;
 
-/// The command line of orb with every command, its options, help and examples. Parsing it runs the
-/// chosen command, which leaves its exit code in `context`. Completion and the man pages are
-/// printed from the same model.
+/// The command line of orb with every command, its options, help and examples. Parsing runs the
+/// chosen command, which puts its exit code into `context`. Completion and the man pages are
+/// generated from the same model.
 std::unique_ptr<CommandLine> all_commands(Context& context);
 
-/// The same with only the command of that name, which takes a tenth of the time; null where there
-/// is none, or where it needs all of them.
+/// The same with only one command, built in a tenth of the time. Null if the command does not exist
+/// or needs the others.
 std::unique_ptr<CommandLine> only_command(Context& context, std::string_view word);
 
-// One function per command, each in the file of its name. It adds the command to `orb`.
+// One function per command, each in the file of the same name. It adds the command to `orb`.
 void add_abort(const Command& orb, Context& context);
 void add_asm(const Command& orb, Context& context);
 void add_ball(const Command& orb, Context& context);

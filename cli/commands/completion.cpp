@@ -8,12 +8,12 @@
 namespace orb::cli {
 namespace {
 
-// Each script asks `orb __complete -- WORDS`, which answers from the option model: one candidate a
-// line, a tab, its summary; and a line `:files` where file names fit. So a script knows no command,
-// no option and no value: it only speaks its shell's language.
+// Each script asks `orb __complete -- WORDS`. The answer comes from the option model: one candidate
+// per line, a tab, its summary; and a line `:files` where file names fit. The scripts only adapt
+// this to their shell; they know no commands, options or values.
 
-// Bash cuts words at `=` and `:`; the whole words are taken from the line as typed, and what stands
-// before the last cut is taken off each candidate, because bash replaces only what follows.
+// Bash splits words at `=` and `:`. The script takes whole words from the typed line and removes
+// what precedes the last split from each candidate: bash replaces only the rest.
 constexpr std::string_view bash_script =
     R"SH(# bash completion for orb: eval "$(orb completion bash)"
 _orb() {

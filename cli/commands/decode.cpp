@@ -1,10 +1,14 @@
+#include "cli/ball/judged.h"
 #include "cli/commands/commands.h"
 #include "cli/context/json.h"
+#include "cli/context/language.h"
 #include "cli/model/checks.h"
 #include "disk/disk.h"
 
 #include "base/refuse.h"
+#include "base/text/text.h"
 #include "base/text/utf8.h"
+#include "protocol/capture/capture.h"
 #include "protocol/describe.h"
 #include "protocol/describe_v2.h"
 #include "protocol/log_text.h"
@@ -14,44 +18,44 @@
 #include <filesystem>
 #include <fmt/format.h>
 #include <memory>
+#include <set>
 #include <vector>
 
 namespace orb::cli {
 namespace {
 
+using protocol::Conversation;
 using protocol::Direction;
 using protocol::Item;
+using protocol::LogLine;
 
 struct DecodeArguments {
   std::vector<std::string> words;
   bool v2 = false;
   std::string from = "auto";
   std::string format = "text";
+  bool judge = false;
+  std::string robot;
 };
 
-/// What is to be decoded: the pieces of a log, or one piece without a direction.
+/// The input to decode: the conversations of a log or a capture, or one piece without a direction.
 struct Input {
-  std::vector<protocol::LogLine> pieces;
+  std::vector<protocol::Conversation> conversations;
   bool is_log = false;
-  protocol::LogText log; ///< what could not be read of it; its lines are the pieces
+  bool is_capture = false;
+  protocol::LogText log;          ///< the unreadable parts of a text
+  std::optional<Failure> refused; ///< set for a capture without a robot
+  std::string warning;            ///< set for a truncated capture
 };
 
-/// What stands in front of a packet that this piece has completed.
-std::string prefix_of(const Input& input, const protocol::LogLine& piece) {
-  if (!input.is_log)
-    return {};
-  const auto* const sign = piece.direction == Direction::ToBall ? "> " : "< ";
-  return piece.when.empty() ? sign : fmt::format("{} {}", piece.when, sign);
-}
-
-/// A stream of one direction, printed as its packets become whole.
+/// A stream of one direction. Prints packets as soon as they are complete.
 class Printer {
 public:
-  Printer(Direction direction, bool as_json, protocol::Describer& describer)
+  Printer(Direction direction, bool as_json, std::string robot, protocol::Describer& describer)
       : decoder_(direction), from_(direction == Direction::ToBall ? "client" : "ball"),
-        as_json_(as_json), describer_(describer) {}
+        robot_(std::move(robot)), as_json_(as_json), describer_(describer) {}
 
-  void feed(const protocol::LogLine& piece, std::string prefix) {
+  void feed(const LogLine& piece, std::string prefix) {
     prefix_ = std::move(prefix);
     when_ = piece.when;
     decoder_.feed(piece.bytes);
@@ -65,7 +69,7 @@ public:
 private:
   void drain() {
     while (auto item = decoder_.next()) {
-      // The bytes of a damaged packet are scanned again; they are shown once.
+      // Bytes of a damaged packet are scanned again, but printed once.
       const auto seen = std::min(shown_, item->raw.size());
       shown_ -= seen;
       if (item->kind == Item::Kind::Noise) {
@@ -85,6 +89,8 @@ private:
     Json json;
     if (!when_.empty())
       json["at"] = when_;
+    if (!robot_.empty())
+      json["robot"] = robot_;
     json["from"] = from_;
     json.update(packet_json(describer_, item));
     print_json(json);
@@ -92,14 +98,15 @@ private:
 
   protocol::Decoder decoder_;
   std::string_view from_;
+  std::string robot_;
   std::string prefix_;
   std::string when_;
   bool as_json_;
   protocol::Describer& describer_;
-  std::size_t shown_ = 0; ///< how many of the bytes to come have been printed already
+  std::size_t shown_ = 0; ///< how many upcoming bytes are printed already
 };
 
-std::string_view kind_name(const protocol::ItemV2& item) {
+std::string_view v2_kind_name(const protocol::ItemV2& item) {
   using Kind = protocol::ItemV2::Kind;
   switch (item.kind) {
   case Kind::Packet:
@@ -112,12 +119,14 @@ std::string_view kind_name(const protocol::ItemV2& item) {
   return "";
 }
 
-Json logged_json(const protocol::ItemV2& item, const std::string& when,
+Json logged_json(const protocol::ItemV2& item, const std::string& when, const std::string& robot,
                  protocol::DescriberV2& describer) {
   Json json;
   if (!when.empty())
     json["at"] = when;
-  json["kind"] = kind_name(item);
+  if (!robot.empty())
+    json["robot"] = robot;
+  json["kind"] = v2_kind_name(item);
   if (item.kind == protocol::ItemV2::Kind::Packet) {
     const auto& packet = item.packet;
     json.update(
@@ -127,7 +136,7 @@ Json logged_json(const protocol::ItemV2& item, const std::string& when,
     json["data"] = to_hex(packet.data);
     if (const auto name = name_of(packet); !name.empty())
       json["name"] = name;
-    describer.describe(item); // it hears all
+    describer.describe(item); // the describer has to see every packet
     if (const auto fields = describer.fields_of(packet); !fields.empty())
       json["meaning"] = fields;
   }
@@ -135,107 +144,204 @@ Json logged_json(const protocol::ItemV2& item, const std::string& when,
   return json;
 }
 
-void print_v2(const Input& input, bool as_json) {
-  protocol::DescriberV2 describer;
-  // Both directions share one format; the flags tell answers from commands.
-  protocol::DecoderV2 to_ball, from_ball;
-  std::string when, prefix_to_ball, prefix_from_ball;
-  const auto print = [&](protocol::DecoderV2& decoder, const std::string& prefix) {
-    while (const auto item = decoder.next())
-      if (as_json)
-        print_json(logged_json(*item, when, describer));
-      else
-        print_out(fmt::format("{}{}\n", prefix, describer.describe(*item)));
-  };
-  for (const auto& piece : input.pieces) {
-    const bool out = piece.direction == Direction::ToBall;
-    auto& decoder = out ? to_ball : from_ball;
-    auto& prefix = out ? prefix_to_ball : prefix_from_ball;
-    prefix = prefix_of(input, piece);
-    when = piece.when;
-    decoder.feed(piece.bytes);
-    print(decoder, prefix);
+/// Prints a conversation as it arrives.
+class Speech {
+public:
+  virtual ~Speech() = default;
+  /// `prefix` precedes the packets that the line completes.
+  virtual void take(const LogLine& line, std::string prefix) = 0;
+  virtual void finish() = 0;
+};
+
+class SpeechV1 final : public Speech {
+public:
+  SpeechV1(bool as_json, const std::string& robot)
+      : to_ball_(Direction::ToBall, as_json, robot, describer_),
+        from_ball_(Direction::FromBall, as_json, robot, describer_) {}
+
+  void take(const LogLine& line, std::string prefix) override {
+    (line.direction == Direction::ToBall ? to_ball_ : from_ball_).feed(line, std::move(prefix));
   }
-  to_ball.expire();
-  print(to_ball, prefix_to_ball);
-  from_ball.expire();
-  print(from_ball, prefix_from_ball);
-}
+  void finish() override {
+    to_ball_.finish();
+    from_ball_.finish();
+  }
 
-void print_v1(const Input& input, bool as_json) {
-  protocol::Describer describer;
-  Printer to_ball(Direction::ToBall, as_json, describer);
-  Printer from_ball(Direction::FromBall, as_json, describer);
-  for (const auto& piece : input.pieces)
-    (piece.direction == Direction::ToBall ? to_ball : from_ball)
-        .feed(piece, prefix_of(input, piece));
-  to_ball.finish();
-  from_ball.finish();
-}
+private:
+  protocol::Describer describer_;
+  Printer to_ball_;
+  Printer from_ball_;
+};
 
-/// How many of the bytes are part of a whole packet when they travel so.
-std::size_t understood(ByteView bytes, Direction direction) {
-  protocol::Decoder decoder(direction);
-  decoder.feed(bytes);
-  std::size_t count = 0;
-  while (const auto item = decoder.next())
-    if (item->kind == Item::Kind::Command || item->kind == Item::Kind::Response ||
-        item->kind == Item::Kind::Async)
-      count += item->raw.size();
-  return count;
-}
+/// Both directions share one format; the flags tell answers from commands.
+class SpeechV2 final : public Speech {
+public:
+  SpeechV2(bool as_json, std::string robot) : as_json_(as_json), robot_(std::move(robot)) {}
 
-std::size_t understood_as_v2(ByteView bytes) {
-  protocol::DecoderV2 decoder;
-  decoder.feed(bytes);
-  std::size_t count = 0;
-  while (const auto item = decoder.next())
-    if (item->kind == protocol::ItemV2::Kind::Packet)
-      count += item->raw.size();
-  return count;
-}
+  void take(const LogLine& line, std::string prefix) override {
+    auto& half = line.direction == Direction::ToBall ? to_ball_ : from_ball_;
+    half.prefix = std::move(prefix);
+    when_ = line.when;
+    half.decoder.feed(line.bytes);
+    print(half);
+  }
+  void finish() override {
+    for (auto* half : {&to_ball_, &from_ball_}) {
+      half->decoder.expire();
+      print(*half);
+    }
+  }
 
-/// How many bytes are part of packets of either kind.
+private:
+  struct Half {
+    protocol::DecoderV2 decoder;
+    std::string prefix;
+  };
+
+  void print(Half& half) {
+    while (const auto item = half.decoder.next())
+      if (as_json_)
+        print_json(logged_json(*item, when_, robot_, describer_));
+      else
+        print_out(fmt::format("{}{}\n", half.prefix, describer_.describe(*item)));
+  }
+
+  bool as_json_;
+  std::string robot_;
+  std::string when_;
+  protocol::DescriberV2 describer_;
+  Half to_ball_, from_ball_;
+};
+
+/// How many bytes belong to packets of each kind.
 struct Understood {
   std::size_t v1 = 0;
   std::size_t v2 = 0;
   std::size_t most() const { return std::max(v1, v2); }
 };
 
-Understood understood(const Input& input) {
+Understood understood(const Conversation& conversation) {
   Understood count;
-  if (!input.is_log) { // which way it travels may have been told wrongly
-    const auto& bytes = input.pieces.front().bytes;
-    return {std::max(understood(bytes, Direction::ToBall), understood(bytes, Direction::FromBall)),
-            understood_as_v2(bytes)};
-  }
   for (const auto direction : {Direction::ToBall, Direction::FromBall}) {
     Bytes bytes;
-    for (const auto& piece : input.pieces)
-      if (piece.direction == direction)
-        bytes.insert(bytes.end(), piece.bytes.begin(), piece.bytes.end());
-    count.v1 += understood(bytes, direction);
-    count.v2 += understood_as_v2(bytes);
+    for (const auto& line : conversation.lines)
+      if (line.direction == direction && !line.greets)
+        bytes.insert(bytes.end(), line.bytes.begin(), line.bytes.end());
+    count.v1 += protocol::understood(bytes, direction);
+    count.v2 += protocol::understood_as_v2(bytes);
   }
   return count;
 }
 
-/// Tells who sent what nobody has told of: `--from`, or whoever's packets have right checksums.
-/// Where that does not tell either, it goes on from the piece before; first comes the client.
-Input with_directions(Input input, std::string_view from) {
+/// The same for a single piece whose direction may be wrong.
+Understood understood_either_way(const Bytes& bytes) {
+  return {std::max(protocol::understood(bytes, Direction::ToBall),
+                   protocol::understood(bytes, Direction::FromBall)),
+          protocol::understood_as_v2(bytes)};
+}
+
+/// The sum over all conversations.
+Understood understood(const Input& input) {
+  if (!input.is_log)
+    return understood_either_way(input.conversations.front().lines.front().bytes);
+  Understood count;
+  for (const auto& conversation : input.conversations) {
+    const auto one = understood(conversation);
+    count.v1 += one.v1;
+    count.v2 += one.v2;
+  }
+  return count;
+}
+
+/// Decides which packets a conversation uses.
+spec::Packets packets_of(const Understood& count, const DecodeArguments& arguments) {
+  return arguments.v2 || count.v2 > count.v1 ? spec::Packets::V2 : spec::Packets::V1;
+}
+
+/// True if output has to name the robots.
+bool has_several_robots(const Input& input) {
+  return std::ranges::any_of(input.conversations, [&](const Conversation& one) {
+    return one.robot != input.conversations.front().robot;
+  });
+}
+
+/// The text before a packet that this line completed.
+std::string prefix_of(const LogLine& line, const std::string& robot) {
+  std::string prefix;
+  for (const auto& word : {line.when, robot})
+    prefix += word.empty() ? "" : word + " ";
+  return prefix + (line.direction == Direction::ToBall ? "> " : "< ");
+}
+
+/// Prints the text that opens a robot over Bluetooth LE; it is not a packet.
+void print_greeting(const LogLine& line, const std::string& prefix, const std::string& robot,
+                    bool as_json) {
+  if (!as_json) {
+    const auto text = as_text(line.bytes);
+    const bool is_word = line.bytes.size() > 1 && to_printable(text) == text;
+    return print_out(fmt::format("{}greeting {}\n", prefix,
+                                 is_word ? fmt::format("\"{}\"", text) : to_hex(line.bytes)));
+  }
+  Json json;
+  if (!line.when.empty())
+    json["at"] = line.when;
+  if (!robot.empty())
+    json["robot"] = robot;
+  json["from"] = "client";
+  json["kind"] = "greeting";
+  json["raw"] = to_hex(line.bytes);
+  print_json(json);
+}
+
+/// Prints all conversations in order of time.
+void print(const Input& input, const DecodeArguments& arguments) {
+  const bool as_json = arguments.format == "json";
+  const bool several = has_several_robots(input);
+  struct LoggedLine {
+    const LogLine* line;
+    std::size_t conversation;
+  };
+  std::vector<LoggedLine> all;
+  std::vector<std::unique_ptr<Speech>> speeches;
+  std::vector<std::string> robots;
+  const auto whole = input.is_log ? Understood{} : understood(input);
+  for (const auto& conversation : input.conversations) {
+    const auto count = input.is_log ? understood(conversation) : whole;
+    robots.push_back(several ? conversation.robot : "");
+    if (packets_of(count, arguments) == spec::Packets::V2)
+      speeches.push_back(std::make_unique<SpeechV2>(as_json, robots.back()));
+    else
+      speeches.push_back(std::make_unique<SpeechV1>(as_json, robots.back()));
+    for (const auto& line : conversation.lines)
+      all.push_back({&line, speeches.size() - 1});
+  }
+  std::ranges::stable_sort(all, {}, [](const LoggedLine& said) { return said.line->number; });
+  for (const auto& [line, index] : all) {
+    auto prefix = input.is_log ? prefix_of(*line, robots[index]) : "";
+    if (line->greets)
+      print_greeting(*line, prefix, robots[index], as_json);
+    else
+      speeches[index]->take(*line, std::move(prefix));
+  }
+  for (const auto& speech : speeches)
+    speech->finish();
+}
+
+/// Sets the direction of pieces without one: from `--from`, or from the side whose packets have
+/// valid checksums. If neither decides, directions alternate, starting with the client.
+void set_directions(Conversation& conversation, std::string_view from) {
   auto before = Direction::ToBall;
-  for (auto& piece : input.pieces) {
-    if (piece.direction)
+  for (auto& line : conversation.lines) {
+    if (line.direction)
       continue;
-    const auto as_client = understood(piece.bytes, Direction::ToBall);
-    const auto as_ball = understood(piece.bytes, Direction::FromBall);
+    const auto as_client = protocol::understood(line.bytes, Direction::ToBall);
+    const auto as_ball = protocol::understood(line.bytes, Direction::FromBall);
     if (from != "auto")
       before = from == "ball" ? Direction::FromBall : Direction::ToBall;
     else if (as_client != as_ball || as_client > 0)
       before = as_ball > as_client ? Direction::FromBall : Direction::ToBall;
-    piece.direction = before;
+    line.direction = before;
   }
-  return input;
 }
 
 bool is_text(std::string_view content) {
@@ -246,21 +352,53 @@ bool is_text(std::string_view content) {
 
 Input one_piece(Bytes bytes, std::string_view from) {
   Input input;
-  input.pieces.push_back({{}, std::nullopt, std::move(bytes)});
-  return with_directions(std::move(input), from);
+  input.conversations.emplace_back().lines.emplace_back().bytes = std::move(bytes);
+  set_directions(input.conversations.front(), from);
+  return input;
 }
 
-/// The lines of a log in text, hex that may go on from line to line, or the bytes themselves:
-/// whatever holds more packets.
-Input take_apart(std::string_view content, std::string_view from) {
+/// The conversations in a Bluetooth capture.
+Input of_capture(protocol::Capture capture, const std::string& name, std::string_view from) {
+  Input input;
+  input.is_log = input.is_capture = true;
+  const auto& frames = capture.frames;
+  if (frames.cut)
+    input.warning =
+        fmt::format("{} ends within a frame; {} before it", name, plural(frames.count, "frame"));
+  if (capture.conversations.empty())
+    input.refused = Failure{
+        ExitCode::BadInput,
+        frames.foreign_link && frames.packets.empty()
+            ? fmt::format("{} is a {} capture of link type {}, which `orb decode` does not read; "
+                          "capture HCI: Android's btsnoop_hci.log, `btmon -w FILE`, or "
+                          "Wireshark on a Bluetooth adapter",
+                          name, frames.format, *frames.foreign_link)
+            : fmt::format("{} is a {} capture of {}, and no robot speaks in it", name,
+                          frames.format, plural(frames.count, "frame"))};
+  input.conversations = std::move(capture.conversations);
+  for (auto& conversation : input.conversations)
+    set_directions(conversation, from);
+  return input;
+}
+
+/// Reads a capture, a text log, hex that may span lines, or raw bytes: the reading that gives most
+/// packets wins.
+Input take_apart(std::string_view content, const std::string& name, std::string_view from) {
   const auto bytes = as_bytes(content);
+  if (auto capture = protocol::read_capture(bytes))
+    return of_capture(*std::move(capture), name, from);
   if (!is_text(content))
     return one_piece({bytes.begin(), bytes.end()}, from);
   Input lines;
   lines.is_log = true;
   lines.log = protocol::read_log(content);
-  lines.pieces = std::exchange(lines.log.lines, {});
-  lines = with_directions(std::move(lines), from);
+  auto& conversation = lines.conversations.emplace_back();
+  conversation.lines = std::exchange(lines.log.lines, {});
+  set_directions(conversation, from);
+  // A log kept by a client is complete from its first word.
+  conversation.has_start =
+      !conversation.lines.empty() && conversation.lines.front().direction == Direction::ToBall;
+  conversation.has_end = true;
   if (auto hex = from_hex(content)) {
     auto whole = one_piece(*std::move(hex), from);
     const bool is_apart = lines.log.strangers == 0 && lines.log.read_lines > 1;
@@ -269,9 +407,9 @@ Input take_apart(std::string_view content, std::string_view from) {
   return lines;
 }
 
-/// What of a text is no packet; nothing where all of it is.
+/// Fails if part of a text is not a packet.
 tl::expected<void, Failure> check_strangers(const Input& input, const std::string& name) {
-  constexpr std::size_t shown = 60; // bytes of the line
+  constexpr std::size_t shown = 60; // bytes of the line to show
   const auto& log = input.log;
   if (log.strangers == 0)
     return {};
@@ -284,8 +422,8 @@ tl::expected<void, Failure> check_strangers(const Input& input, const std::strin
                   log.first_stranger, to_printable(log.stranger.substr(0, shown))));
 }
 
-/// A recording of `orb run --port … --record`, which has what a program and its robot said to each
-/// other, and not in packets.
+/// A recording of `orb run --port … --record`. It holds the values that a program and its robot
+/// exchanged, not packets.
 constexpr std::string_view drive_recording = "orb.drive/";
 
 tl::expected<Input, Failure> read_file(const DecodeArguments& arguments, const std::string& file) {
@@ -297,7 +435,7 @@ tl::expected<Input, Failure> read_file(const DecodeArguments& arguments, const s
                   fmt::format("{0} records a drive, without packets; `orb run PROGRAM --replay "
                               "{0}` repeats it",
                               disk::display_name(file)));
-  return take_apart(*content, arguments.from);
+  return take_apart(*content, disk::display_name(file), arguments.from);
 }
 
 tl::expected<Input, Failure> read_words(const DecodeArguments& arguments) {
@@ -314,6 +452,41 @@ tl::expected<Input, Failure> read_words(const DecodeArguments& arguments) {
   return one_piece(std::move(all), arguments.from);
 }
 
+/// True if the bytes look like packets v2, although none is complete.
+bool begins_as_v2(const Conversation& conversation) {
+  return std::ranges::any_of(conversation.lines, [](const LogLine& line) {
+    return !line.bytes.empty() && line.bytes.front() == spec::v2_start;
+  });
+}
+
+/// Prints the mistakes of the clients in place of the packets.
+void print_judgement(Context& context, Input& input, const std::string& name,
+                     const DecodeArguments& arguments) {
+  using Awake = protocol::ClientJudge::Awake;
+  JudgedLog log{name, input.is_capture ? Numbered::Frames : Numbered::Lines, {}};
+  std::set<std::string> known;
+  for (auto& conversation : input.conversations) {
+    if (!arguments.robot.empty())
+      conversation.kind = spec::find_robot(arguments.robot)->robot; // the option has been checked
+    const auto count = understood(conversation);
+    const auto packets = count.most() == 0 && begins_as_v2(conversation)
+                             ? spec::Packets::V2
+                             : packets_of(count, arguments);
+    if (conversation.kind && spec::info(*conversation.kind).packets != packets)
+      conversation.kind.reset();
+    const bool is_first = known.insert(conversation.robot).second;
+    log.conversations.push_back(
+        {conversation.robot, packets,
+         protocol::judge(conversation, packets, is_first ? Awake::No : Awake::Perhaps)});
+  }
+  const auto say = say_in(context.ui_language);
+  print_out(arguments.format == "json"    ? judged_json(log, say)
+            : arguments.format == "junit" ? judged_junit(log)
+                                          : judged_text(log, context.out_style(), say));
+  if (!log.is_clean())
+    context.exit = ExitCode::BadInput;
+}
+
 void decode(Context& context, const DecodeArguments& arguments) {
   const auto& words = arguments.words;
   std::error_code ignored;
@@ -322,17 +495,27 @@ void decode(Context& context, const DecodeArguments& arguments) {
       (words.size() == 1 &&
        (words[0] == "-" || std::filesystem::exists(disk::as_path(words[0]), ignored)));
   const auto file = words.empty() ? "-" : words[0];
-  const auto input = is_file ? read_file(arguments, file) : read_words(arguments);
+  if (arguments.format == "junit" && !arguments.judge)
+    return fail(context, {ExitCode::Usage, "`--format junit` is for verdicts; add `--judge`"});
+  auto input = is_file ? read_file(arguments, file) : read_words(arguments);
   if (!input)
     return fail(context, input.error());
+  if (input->refused)
+    return fail(context, *input->refused);
   const auto count = understood(*input);
-  const bool is_v2 = arguments.v2 || count.v2 > count.v1;
-  if (is_v2)
-    print_v2(*input, arguments.format == "json");
+  const bool is_v2 = packets_of(count, arguments) == spec::Packets::V2;
+  const bool has_bytes = std::ranges::any_of(input->conversations, [](const Conversation& one) {
+    return std::ranges::any_of(one.lines, [](const LogLine& line) { return !line.bytes.empty(); });
+  });
+  if (arguments.judge && !input->is_log)
+    return fail(context, {ExitCode::Usage, "`--judge` takes a log that tells who speaks, such as "
+                                           "that of `orb ball --log`, or a capture"});
+  if (arguments.judge && has_bytes)
+    print_judgement(context, *input, disk::display_name(file), arguments);
   else
-    print_v1(*input, arguments.format == "json");
-  const bool has_bytes = std::ranges::any_of(
-      input->pieces, [](const protocol::LogLine& piece) { return !piece.bytes.empty(); });
+    print(*input, arguments);
+  if (!input->warning.empty())
+    print_warning(context, input->warning);
   if (is_v2 && count.v2 == 0 && count.v1 > 0)
     print_note(context, "these are packets v1; omit `--v2`");
   else if (count.most() == 0 && has_bytes)
@@ -345,18 +528,34 @@ void decode(Context& context, const DecodeArguments& arguments) {
 } // namespace
 
 void add_decode(const Command& orb, Context& context) {
-  const auto command = orb.add_command("decode", "explain packets in words",
-                                       "orb decode FF FF 00 01 52 01 AB\n"
-                                       "orb decode FFFE08000748656C6C6F0AF2\n"
-                                       "orb decode session.txt\norb decode 8D0A11061FBFD8\n"
-                                       "orb decode robot.log");
+  const auto command =
+      orb.add_command("decode", "explain packets in words",
+                      "orb decode FF FF 00 01 52 01 AB\n"
+                      "orb decode FFFE08000748656C6C6F0AF2\n"
+                      "orb decode session.txt\norb decode 8D0A11061FBFD8\n"
+                      "orb decode btsnoop_hci.log\n"
+                      "orb decode --judge session.log\n"
+                      "orb decode --judge --robot bolt --format junit robot.pcapng");
   auto arguments = std::make_shared<DecodeArguments>();
   command.add_option(
       "FILE", arguments->words,
-      "hex bytes, or a file of hex, raw bytes, a recording or a log; stdin if - or omitted");
+      "hex bytes, or a file: hex, raw bytes, a recording, a log, or a capture of Bluetooth "
+      "(btsnoop, pcap, pcapng); stdin if - or omitted");
   command.add_flag("--v2", arguments->v2,
                    "read them as packets v2, of the newer robots; without it whichever fits");
-  add_format_option(command, arguments->format);
+  command.add_flag("--judge", arguments->judge,
+                   "say what the client did wrong, instead of what was said; exit code 1 if "
+                   "anything");
+  command
+      .add_option("--robot", arguments->robot,
+                  "which robot it was, for --judge; without it what all have in common counts, or "
+                  "the name in a capture")
+      .check(one_of(names_of(spec::robots)));
+  command
+      .add_option("--format", arguments->format,
+                  "text, JSON for other programs, or with --judge JUnit for CI")
+      .check(one_of({"text", "json", "junit"}))
+      .show_default();
   command
       .add_option("--from", arguments->from,
                   "which side sent the bytes; auto: the one whose checksums match; a recording "

@@ -20,8 +20,8 @@ struct DisasmOptions {
   bool framed = false;
 };
 
-/// What the bytes are: as the user says, as the ending says, or as the one reading that works.
-/// Nothing where both work.
+/// Decides what the bytes are: from the option, from the file extension, or because only one
+/// reading works. Nothing if both work.
 std::optional<Reading> choose(const DisasmOptions& options, const std::string& ending,
                               ByteView bytes) {
   if (options.raw || options.framed)

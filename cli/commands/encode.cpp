@@ -39,7 +39,7 @@ constexpr std::string_view numbers_taken =
     "a v2 packet takes a name, or DID CID [HEX], with two hex digits each for DID and CID, as in "
     "`orb encode --v2 13 0D`";
 
-/// A command of the newer robots by its numbers; nothing where the words are not such.
+/// Reads a command of the newer robots given by numbers; nothing for other words.
 std::optional<protocol::PacketV2> numbered_v2(const EncodeArguments& arguments) {
   const auto did = from_hex(arguments.name);
   if (!did || did->size() != 1 || arguments.operands.empty())

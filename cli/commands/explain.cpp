@@ -4,7 +4,7 @@
 #include "cli/commands/commands.h"
 #include "cli/model/checks.h"
 #include "cli/model/command_line.h"
-#include "reference/foreign.h"
+#include "reference/foreign_sections.h"
 #include "reference/knowledge.h"
 
 #include <algorithm>
@@ -14,7 +14,7 @@
 namespace orb::cli {
 namespace {
 
-/// The word as it is written, else in any case, else as an option without its dashes.
+/// Finds the word as written, then ignoring case, then as an option without dashes.
 std::string explain(const std::vector<reference::Section>& sections, Style style,
                     const std::string& word) {
   using reference::print_entries;
@@ -28,14 +28,15 @@ std::string explain(const std::vector<reference::Section>& sections, Style style
   return found;
 }
 
-/// Whether a statement can begin with the word: sensors and stimuli are also called what other
-/// languages call their statements (`roll`, `spin`).
+/// True if a statement can begin with the word. Some sensors and stimuli share the names of other
+/// languages' statements (`roll`, `spin`).
 bool begins_statements(const std::vector<reference::Section>& sections, const std::string& word) {
   const auto is_it = [&](const std::string& name) { return equal_words(name, word); };
   for (const auto& section : sections)
     for (const auto& entry : section.entries)
       if ((is_it(entry.name) || std::any_of(entry.aliases.begin(), entry.aliases.end(), is_it)) &&
-          section.id != "variables" && section.id != "stimuli" && section.id != "macro-commands")
+          section.id != "variables" && section.id != "stimuli" && section.id != "macro-commands" &&
+          section.id != "edu-calls")
         return true;
   return false;
 }

@@ -9,10 +9,12 @@
 #include "cli/terminal/diff.h"
 #include "compiler/check.h"
 #include "compiler/renumber.h"
-#include "compiler/text/parse.h"
+#include "compiler/text/parse_basic.h"
 #include "compiler/text/print.h"
 #include "disk/disk.h"
 #include "structured/layout/format.h"
+#include "testing/suite.h"
+#include "testing/text/layout.h"
 
 #include <fmt/format.h>
 #include <memory>
@@ -50,11 +52,11 @@ std::optional<compiler::Numbering> read_numbering(const std::string& text) {
   return compiler::Numbering{*start, *step};
 }
 
-/// The formatted text; nothing, and reported, where the file cannot be formatted.
+/// Returns the formatted text; nothing, with findings printed, if the file cannot be formatted.
 std::optional<std::string> format_text(Context& context, const Source& source,
                                        const std::optional<compiler::Numbering>& numbering) {
   auto checked = compiler::check(source.text(), {});
-  if (!checked.image_bytes) { // no program at all: empty, binary or far too large
+  if (!checked.image_bytes) { // not a program: empty, binary or far too large
     for (const auto& diagnostic : checked.diagnostics)
       print_finding(context, source, diagnostic);
     context.exit = ExitCode::BadInput;
@@ -73,17 +75,18 @@ std::optional<std::string> format_text(Context& context, const Source& source,
   return compiler::format(compiler::parse(text));
 }
 
-/// The same for a structured program, which has no numbers.
-std::optional<std::string> format_structured(Context& context, const Source& source) {
+/// The same with `layout`, for texts that are not parsed for it.
+std::optional<std::string> lay_out(Context& context, const Source& source,
+                                   std::string (*layout)(std::string_view)) {
   if (const auto refused = compiler::refuse_text(source.text())) {
     print_finding(context, source, *refused);
     context.exit = ExitCode::BadInput;
     return std::nullopt;
   }
-  return structured::format(source.text());
+  return layout(source.text());
 }
 
-/// The same for macro source, whose statements keep their order and their remarks.
+/// The same for macro source; statements keep their order and comments.
 std::optional<std::string> format_macro(Context& context, const Source& source) {
   namespace rules = assembler::rules;
   for (const auto& diagnostic : assembler::check(source))
@@ -96,42 +99,68 @@ std::optional<std::string> format_macro(Context& context, const Source& source) 
   return assembler::layout(source.text());
 }
 
+bool is_for_tests(std::string_view name) {
+  return has_ending(name, testing::file_ending) || has_ending(name, ".stimulus");
+}
+
+/// Writes, compares or prints the formatted text of a file.
+void deliver(Context& context, const FmtOptions& options, const std::string& path,
+             const Source& source, const std::string& formatted) {
+  const bool changed = formatted != source.text();
+  if (options.diff)
+    print_out(unified_diff(source.name(), source.text(), formatted));
+  if (options.check && changed) {
+    print_note(context, fmt::format("{} would change", shown_name(source.name())));
+    context.exit = ExitCode::BadInput;
+  }
+  if (options.write && changed) {
+    if (const auto written = disk::write(path, as_bytes(formatted)); !written)
+      fail(context, {ExitCode::File, written.error().message});
+  }
+  if (!options.diff && !options.check && !options.write)
+    print_out(formatted);
+}
+
+void refuse_numbering(Context& context, const Source& source, std::string_view what) {
+  fail(context, {ExitCode::Usage, fmt::format("{}: {} have no line numbers", source.name(), what)});
+}
+
+/// A test or a stimulus script.
+void format_test(Context& context, const FmtOptions& options, const std::string& path) {
+  const auto text = read_text(path);
+  if (!text)
+    return fail(context, text.error());
+  const Source source(path, *text);
+  if (options.renumbers)
+    return refuse_numbering(context, source, "tests and stimulus scripts");
+  if (const auto formatted = lay_out(context, source, testing::layout))
+    deliver(context, options, path, source, *formatted);
+}
+
 void run_one(Context& context, const FmtOptions& options, const std::string& path,
              const std::optional<compiler::Numbering>& numbering) {
+  if (options.lang.empty() && is_for_tests(path))
+    return format_test(context, options, path);
   const auto file = read_source(path, options.lang);
   if (!file)
     return fail(context, file.error());
   const auto& source = file->source;
   if (file->language != run::Language::Basic && numbering)
-    return fail(context, {ExitCode::Usage, fmt::format("{}: {} have no line numbers", source.name(),
-                                                       file->language == run::Language::Macro
-                                                           ? "macros"
-                                                           : "structured programs")});
+    return refuse_numbering(
+        context, source, file->language == run::Language::Macro ? "macros" : "structured programs");
   const auto formatted = [&] {
     switch (*file->language) {
     case run::Language::Basic: return format_text(context, source, numbering);
-    case run::Language::Structured: return format_structured(context, source);
+    case run::Language::Structured: return lay_out(context, source, structured::format);
     case run::Language::Macro: break;
     }
     return format_macro(context, source);
   }();
   if (!formatted)
     return;
-  const bool changed = *formatted != source.text();
   if (options.write && file->is_bytes)
     return fail(context, run::not_text(source.name()));
-  if (options.diff)
-    print_out(unified_diff(source.name(), source.text(), *formatted));
-  if (options.check && changed) {
-    print_note(context, fmt::format("{} would change", shown_name(source.name())));
-    context.exit = ExitCode::BadInput;
-  }
-  if (options.write && changed) {
-    if (const auto written = disk::write(path, as_bytes(*formatted)); !written)
-      fail(context, {ExitCode::File, written.error().message});
-  }
-  if (!options.diff && !options.check && !options.write)
-    print_out(*formatted);
+  deliver(context, options, path, source, *formatted);
 }
 
 void format_all(Context& context, const FmtOptions& options) {
@@ -151,9 +180,9 @@ void format_all(Context& context, const FmtOptions& options) {
 } // namespace
 
 void add_fmt(const Command& orb, Context& context) {
-  const auto command = orb.add_command("fmt", "format programs and macros",
+  const auto command = orb.add_command("fmt", "format programs, macros and tests",
                                        "orb fmt square.bas\n"
-                                       "orb fmt -w *.bas *.orb\n"
+                                       "orb fmt -w *.bas *.orb *.test\n"
                                        "orb fmt --renumber=100:10 --diff square.bas");
   auto options = std::make_shared<FmtOptions>();
   command.add_option("FILE", options->files, "sources; `-` is standard input").required();

@@ -1,5 +1,5 @@
-// Stands for the commands that ./dev demo does not show, in the program that it builds first: with
-// what they need they are more than half of what there is to compile.
+// Replaces the commands that ./dev demo leaves out of the program that it builds first: with their
+// dependencies they are more than half of the code.
 
 #include "cli/commands/commands.h"
 #include "cli/editors/commands.h"

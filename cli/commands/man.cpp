@@ -22,11 +22,11 @@ struct ManOptions {
   std::string folder;
 };
 
-std::string_view name_of(const reference::ManualPage& page) {
+std::string_view page_name(const reference::ManualPage& page) {
   return std::string_view(page.file).substr(0, page.file.rfind('.'));
 }
 
-/// Shows a page as `man` lays it out; false where there is no `man` to do it.
+/// Shows a page formatted by `man`; false if there is no `man`.
 bool show_laid_out(const std::string& text) {
   auto* const reader = ::popen("man -l - 2>/dev/null", "w");
   if (reader == nullptr)
@@ -39,13 +39,13 @@ void print_page(Context& context, const std::vector<reference::ManualPage>& page
                 const std::string& name) {
   std::vector<std::string_view> names;
   for (const auto& page : pages) {
-    if (name_of(page) == name || name_of(page) == "orb-" + name) {
+    if (page_name(page) == name || page_name(page) == "orb-" + name) {
       if (is_terminal(Stream::Out) && show_laid_out(page.text))
         return;
       print_out(page.text);
       return;
     }
-    names.push_back(name_of(page));
+    names.push_back(page_name(page));
     if (names.back().starts_with("orb-"))
       names.push_back(names.back().substr(4));
   }
@@ -59,7 +59,8 @@ void write_pages(Context& context, const std::vector<reference::ManualPage>& pag
   for (const auto& page : pages) {
     const auto place = fmt::format("{}/man{}", folder, page.file.back());
     std::error_code error;
-    std::filesystem::create_directories(disk::as_path(place), error); // writing says what is wrong
+    // a failure shows when writing
+    std::filesystem::create_directories(disk::as_path(place), error);
     if (const auto done = disk::write(place + "/" + page.file, as_bytes(page.text)); !done)
       return fail(context, {ExitCode::File, done.error().message});
   }

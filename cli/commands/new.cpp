@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 struct NewOptions {
   std::string folder;
   bool numbered = false;
-  bool structured = false; ///< the default, said aloud
+  bool structured = false; ///< the default, given explicitly
   bool course = false;
 };
 
@@ -28,8 +28,8 @@ struct Starter {
   std::string_view text;
 };
 
-// A project that checks without a finding and runs at once. `%` stands for its name, `$` for its
-// program as a word of the shell.
+// A project that passes `orb check` and runs at once. `%` is replaced by its name, `$` by its
+// program's name quoted for the shell.
 constexpr Starter numbered{"%.bas",
                            R"(' %: drives a square in four colours, then waits to be shaken.
 10 locate 0,0
@@ -93,7 +93,7 @@ test "waits for the shake"
   expect color off at end
 )"};
 
-/// The test where there is a course.
+/// The variant of the test for a project with a course.
 std::string with_course(std::string text) {
   text.insert(text.find("with "), "course course.svg\n");
   return text + R"(
@@ -103,7 +103,7 @@ test "comes home"
 )";
 }
 
-// A room of 2 m by 2 m in which the starters drive their square.
+// A room of 2 m by 2 m, large enough for the square that the starters drive.
 constexpr Starter course{"course.svg",
                          R"(<?xml version="1.0" encoding="UTF-8"?>
 <!-- The course for %, in centimetres; open it in Inkscape or a browser.

@@ -23,7 +23,7 @@
 #include "run/want.h"
 #include "run/why.h"
 #include "spec/firmware.h"
-#include "structured/text/words.h"
+#include "structured/text/structured_words.h"
 
 #include <chrono>
 #include <cstdio>
@@ -42,7 +42,7 @@ namespace orb::cli {
 
 namespace {
 
-/// What is known of the robot that virtual balls drive like; the one of `sim:` does, too.
+/// Reads the profile that virtual balls drive by, also for `sim:`.
 tl::expected<std::optional<run::Profile>, Failure> take_profile(RunOptions& given) {
   if (given.ball.empty())
     return std::nullopt;
@@ -55,7 +55,7 @@ tl::expected<std::optional<run::Profile>, Failure> take_profile(RunOptions& give
   return *profile;
 }
 
-/// Nobody has measured how it drives there.
+/// Notes that nobody has measured this robot at these speeds.
 void hint_at_guesses(const Context& context, const RunOptions& given, const run::Profile& profile,
                      const Console& console) {
   const auto& [slowest, fastest] = console.speeds();
@@ -66,7 +66,7 @@ void hint_at_guesses(const Context& context, const RunOptions& given, const run:
                                     profile.slowest, profile.fastest));
 }
 
-/// The run of the page to compare with; empty where none is given.
+/// Reads the run to compare with from a page; empty if none is given.
 tl::expected<std::string, Failure> read_before(const RunOptions& options) {
   if (options.compare.empty())
     return std::string();
@@ -97,7 +97,7 @@ tl::expected<void, IoError> write_pictures(const RunOptions& options,
              : disk::write(options.svg, as_bytes(report::path_svg(journey, planned)));
 }
 
-/// Where the run can be seen, or how it could be; empty where there is nothing to see.
+/// Where to look at the run, or how to record one; empty if there is nothing to see.
 std::string where_to_look(const RunOptions& options, const run::Sight& sight) {
   if (options.open || (sight.way_cm == 0 && !sight.turned && !sight.color))
     return "";
@@ -114,7 +114,7 @@ void tell_end(const Context& context, const RunOptions& options, const run::Endi
   print_note(context, run::to_string(ending));
 }
 
-/// How the run ended by what it printed, where the user looked for something.
+/// Judges the run by its output, if the user asked for that.
 tl::expected<void, Failure> judge(const RunOptions& options, const run::Ending& ending) {
   if (ending.seen == run::Sought::Forbidden)
     return refuse(ExitCode::BadInput,
@@ -125,8 +125,8 @@ tl::expected<void, Failure> judge(const RunOptions& options, const run::Ending& 
   return {};
 }
 
-/// Tells `perf report` which lines the machine code of this process belongs to, in the form that it
-/// looks for: /tmp/perf-PID.map, lines of `START SIZE NAME` with hexadecimal numbers.
+/// Tells `perf report` which lines the machine code of this process comes from, in its format:
+/// /tmp/perf-PID.map, lines of `START SIZE NAME` with hexadecimal numbers.
 void write_perf_map(const Context& context, std::span<const vm::NativeCode::Piece> pieces) {
   if (std::getenv("ORB_PERF_MAP") == nullptr || pieces.empty())
     return;
@@ -137,16 +137,18 @@ void write_perf_map(const Context& context, std::span<const vm::NativeCode::Piec
                         piece.line == 0 ? "entry and exit" : fmt::format("line {}", piece.line));
   const auto path = fmt::format("/tmp/perf-{}.map", getpid());
   if (const auto written = disk::write(path, as_bytes(text)); !written)
-    print_note(context, written.error().message); // perf shows addresses then; the run is good
+    // perf then shows addresses; the run itself is fine
+    print_note(context, written.error().message);
 }
 
-/// Opens the report. That this failed does not change how the run ended.
+/// Opens the report. A failure here does not change the result of the run.
 void show(const Context& context, const RunOptions& options) {
   if (const auto shown = show_in_browser(options.report); !shown)
     print_error(context, shown.error());
 }
 
-/// A name for a report that was given none: in a folder of its own, which stays for the browser.
+/// A name for a report without one, in a new folder. The folder is kept, because the browser reads
+/// from it.
 tl::expected<std::string, Failure> temporary_report(const std::string& program) {
   const auto own = make_temporary_folder();
   if (!own) {
@@ -160,7 +162,7 @@ tl::expected<std::string, Failure> temporary_report(const std::string& program) 
   return fmt::format("{}/{}.html", *own, name);
 }
 
-/// Reads the course, where one is given, into `course`, which the options refer to from then on.
+/// Reads the course, if given, into `course`; the options refer to it afterwards.
 tl::expected<void, Failure> take_course(const Context& context, const std::string& path,
                                         std::optional<report::Course>& course,
                                         run::Options& options) {
@@ -174,7 +176,7 @@ tl::expected<void, Failure> take_course(const Context& context, const std::strin
   return {};
 }
 
-/// The same run on the virtual ball that drives like that robot.
+/// Simulates the same run on a virtual ball of that model.
 void plan(const std::vector<run::Input>& inputs, const run::Options& given, spec::Robot robot,
           report::Journey& journey) {
   class Nobody final : public run::Listener {
@@ -182,14 +184,15 @@ void plan(const std::vector<run::Input>& inputs, const run::Options& given, spec
     void on_fault(Duration, const run::ProgramError&) override {}
   } nobody;
   auto options = given;
-  if (options.model != robot) // what was measured is of another
+  if (options.model != robot) // the profile was measured on another model
     options.driving.reset();
   options.model = robot;
-  static_cast<void>(run::run(inputs, options, nobody, &journey)); // without it there is no plan
+  // without a result there is no plan
+  static_cast<void>(run::run(inputs, options, nobody, &journey));
 }
 
-/// What the program looks for and will not find, with the option that brings it; empty where
-/// nothing can be done about it, as in the world of a real robot.
+/// Hints at inputs or stimuli that the program waits for, with the option that provides them; empty
+/// if no option can, as with a real robot.
 std::string hint_of(const Context& context, const RunOptions& given,
                     const std::vector<run::Input>& inputs, const run::Options& options) {
   const auto want = run::want(inputs, options);
@@ -200,7 +203,7 @@ std::string hint_of(const Context& context, const RunOptions& given,
   return has_world || want->answers ? "hint: " + want->advice : "";
 }
 
-/// The numbers of `--input`, and another one.
+/// The numbers of `--input` plus another one.
 std::string one_more(const run::Options& options) {
   return fmt::format("{}{}20", fmt::join(options.numbers, ","), options.numbers.empty() ? "" : ",");
 }
@@ -238,9 +241,9 @@ tl::expected<void, Failure> run_files(Context& context, RunOptions given) {
   if (!given.report.empty() || !given.svg.empty())
     journey.emplace();
   auto* const notes = journey ? &*journey : nullptr;
-  std::optional<Failure> broken; // why a run on a robot could not go on
+  std::optional<Failure> broken; // why a run on a robot could not continue
   std::optional<Slept> slept;
-  std::optional<report::Journey> planned; // what the virtual ball does in place of a robot
+  std::optional<report::Journey> planned; // the simulated run, next to that of the robot
   const auto ending = [&]() -> tl::expected<run::Ending, Failure> {
     if (given.port.port.empty() && given.replay.empty())
       return run::run(*inputs, *options, console, notes);
@@ -265,7 +268,7 @@ tl::expected<void, Failure> run_files(Context& context, RunOptions given) {
     print_fault(context, fault);
   if (written && journey)
     written = write_pictures(given, *journey, planned ? &*planned : nullptr, *before);
-  if (!written) // how the run ended is told all the same
+  if (!written) // report the end of the run anyway
     print_error(context, written.error().message);
   tell_end(context, given, *ending, run::why(*inputs, *ending));
   if (want.empty() && ending->reason == run::Reason::Input && options->asks == run::Asks::No)
@@ -283,7 +286,7 @@ tl::expected<void, Failure> run_files(Context& context, RunOptions given) {
   if (given.open && !given.watch && written)
     show(context, given);
   if (console.lost() && InterruptGuard::asked() == 0)
-    throw *console.lost(); // the robot is at rest now
+    throw *console.lost(); // the robot has been stopped
   if (broken)
     return tl::unexpected(*std::move(broken));
   if (auto good = judge(given, *ending); !good)
@@ -311,7 +314,7 @@ void run_and_report(Context& context, const RunOptions& options) {
 void run_and_watch(Context& context, const RunOptions& options,
                    const std::vector<std::string>& made_up) {
   const auto files = [&] {
-    const auto opened = open_rooms(options.files); // broken ones are told by the run
+    const auto opened = open_rooms(options.files); // a broken file is reported by the run
     auto all = files_of(opened ? *opened : options.files, options.language);
     std::copy_if(options.files.begin(), options.files.end(), std::back_inserter(all), is_room_file);
     for (const auto& stimulus : options.stimuli)
@@ -331,14 +334,14 @@ void run_and_watch(Context& context, const RunOptions& options,
       context, files, [&] { run_and_report(context, options); },
       [&] {
         if (shown || written() == before)
-          return; // the page reloads itself, or there is none yet
+          return; // the page reloads itself, or does not exist yet
         shown = true;
         show(context, options);
       },
       made_up);
 }
 
-/// Runs once or at every change, and sees to the page that its options ask for.
+/// Runs once or at every change, and writes the page that the options ask for.
 void run_with_report(Context& context, RunOptions& options) {
   if (options.open && options.report == "-")
     return fail(context, {ExitCode::Usage, "`--open` needs a report in a file; omit `--report -`"});
@@ -384,7 +387,7 @@ void add_program_options(const Command& command, RunOptions& options) {
   command.add_option("--line", options.run.line, "the line to start at; by default the first")
       .check(whole_number(spec::value_of(spec::Limit::LeastLineNumber),
                           spec::value_of(spec::Limit::GreatestLineNumber)));
-  command.add_option("--seed", options.run.seed, "seeds all random choices")
+  command.add_option("--seed", options.run.seed, "the seed of all random choices")
       .check(whole_number(0, std::numeric_limits<std::uint64_t>::max()))
       .show_default();
   command.add_option(
@@ -412,7 +415,7 @@ void add_ball_options(const Command& command, RunOptions& options) {
       .check(one_of(names_of(spec::firmwares)))
       .show_default();
   command.add_flag("--lenient", options.lenient,
-                   "clamps colours and wraps negative headings, as some robots seem to do");
+                   "clamp colours and wrap negative headings, as some robots seem to do");
   add_stimulus_option(command, options.stimuli);
   add_course_option(command, options.course);
   command
@@ -427,7 +430,7 @@ void add_ball_options(const Command& command, RunOptions& options) {
           "once) or off")
       .check(one_of({"auto", "on", "off"}))
       .show_default();
-  command.add_flag("--realtime", options.realtime, "takes as long as the robot would");
+  command.add_flag("--realtime", options.realtime, "take as long as the robot would");
 }
 
 void add_tether_options(const Command& command, RunOptions& options) {
@@ -436,9 +439,9 @@ void add_tether_options(const Command& command, RunOptions& options) {
   add_robot_options(command, options.port, options.robot);
   add_ball_option(command, options.ball,
                   "the virtual ball drives like the robot that `orb calibrate` measured");
-  command.add_option("--record", options.record, "records all traffic with the robot in this file");
+  command.add_option("--record", options.record, "record all traffic with the robot in this file");
   command.add_option("--replay", options.replay,
-                     "repeats the run from such a recording, without a robot");
+                     "repeat the run from a file that --record wrote, without a robot");
   add_sleep_option(command, options.sleeps);
   command.add_flag("--no-aim", options.keep_aim,
                    "keeps the robot's heading and position; otherwise both start at 0");
@@ -447,15 +450,15 @@ void add_tether_options(const Command& command, RunOptions& options) {
 void add_output_options(const Command& command, RunOptions& options) {
   command.add_option("--trace", options.trace, "one event per line, instead of the output")
       .check(one_of({"json", "csv"}));
-  command.add_flag("--trace-lines", options.run.trace_lines, "also traces every executed line");
+  command.add_flag("--trace-lines", options.run.trace_lines, "also trace every executed line");
   command.add_option("--trace-out", options.trace_out, "the file for the trace");
-  command.add_option("--report", options.report, "writes a page that plays the run back");
+  command.add_option("--report", options.report, "write a page that plays the run back");
   command.add_flag("--open", options.open,
                    "opens that page in a browser; without --report, a temporary one");
   command.add_option("--compare", options.compare,
-                     "shows the run from another such page beside this one");
-  command.add_option("--svg", options.svg, "draws the path");
-  command.add_flag("--watch", options.watch, "runs again whenever a file changes");
+                     "show the run from an earlier report page next to this one");
+  command.add_option("--svg", options.svg, "draw the path");
+  command.add_flag("--watch", options.watch, "run again whenever a file changes");
 }
 
 void add_room_options(const Command& command, RunOptions& options) {

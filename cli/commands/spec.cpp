@@ -14,10 +14,10 @@ struct SpecOptions {
   bool json = false;
   bool markdown = false;
   bool cheatsheet = false;
-  std::string editors; ///< the folder to print the editors' word lists into
+  std::string editors; ///< folder to write the editors' word lists into
 };
 
-/// The list of sections and what they hold: what `orb spec` prints by itself.
+/// The list of sections with their contents: the output of plain `orb spec`.
 std::string overview(const std::vector<reference::Section>& sections) {
   std::string out;
   for (const auto& section : sections)
@@ -33,7 +33,7 @@ std::string plain(const reference::Section& section, Style style) {
   return out;
 }
 
-/// Keeps the section that the user named; false where there is none.
+/// Keeps only the section that the user named; false if it does not exist.
 bool select_section(std::vector<reference::Section>& sections, const std::string& id,
                     const Context& context) {
   std::vector<std::string_view> ids;

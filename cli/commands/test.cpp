@@ -29,9 +29,9 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr unsigned most_jobs = 1000;
-// The result of a run takes some 350 bytes until all are known.
+// Each run takes some 350 bytes of memory until the end.
 constexpr std::uint64_t most_runs = 2'000'000;
-/// Where tests are looked for if no place is given.
+/// Where to look for tests by default.
 const std::vector<std::string> test_paths{"."};
 
 struct TestOptions {
@@ -52,7 +52,7 @@ struct TestOptions {
   bool merge = false;
 };
 
-/// The test files below a folder, in the order of their names.
+/// The test files below a folder, sorted by name.
 tl::expected<std::vector<std::string>, Failure> find_tests(const std::string& folder) {
   std::vector<std::string> found;
   std::error_code error;
@@ -70,7 +70,7 @@ tl::expected<std::vector<std::string>, Failure> find_tests(const std::string& fo
   return found;
 }
 
-/// The tests in a file with an address of the playground.
+/// Returns the tests in a file that holds a link to the playground.
 tl::expected<std::vector<testing::GivenFile>, Failure> tests_in_link(const std::string& path) {
   const auto folders = read_link_file(path);
   if (!folders)
@@ -88,7 +88,7 @@ tl::expected<std::vector<testing::GivenFile>, Failure> tests_in_link(const std::
   return tests;
 }
 
-/// Reads the files that were given, and those of the folders.
+/// Reads the given files and those in the given folders.
 tl::expected<std::vector<testing::GivenFile>, Failure>
 read_tests(const std::vector<std::string>& paths) {
   std::vector<testing::GivenFile> files;
@@ -149,14 +149,14 @@ tl::expected<testing::Shard, Failure> read_shard(const std::string& text) {
   return testing::Shard{index, count};
 }
 
-/// The tests of the command line; of a class without one, those that came with its programs.
+/// The tests from the command line; for a class without any, those that came with its programs.
 tl::expected<std::vector<testing::GivenFile>, Failure> given_tests(const TestOptions& options) {
   const bool none_named = options.paths == test_paths;
   return none_named && !options.class_folder.empty() ? read_class_tests(options.class_folder)
                                                      : read_tests(options.paths);
 }
 
-/// Shows how many runs are done.
+/// Shows the number of finished runs.
 class Bar final : public testing::Progress {
 public:
   explicit Bar(const Context& context) : bar_(context, "runs") {}
@@ -166,14 +166,14 @@ private:
   CountBar bar_;
 };
 
-/// Shows nothing: on a robot each case is told before it begins.
+/// Shows nothing: on a robot each case is announced before it begins.
 class NoBar final : public testing::Progress {
 public:
   void on_cases(std::uint64_t, std::uint64_t) override {}
 };
 
-/// The files of a report in its folder. The index is written last, and an old one goes first: a
-/// folder with an index is a whole report.
+/// Writes a report into its folder. Removes an old index first and writes the new one last, so a
+/// folder with an index has a complete report.
 class ReportFolder final : public testing::Pages {
 public:
   explicit ReportFolder(std::string folder) : folder_(std::move(folder)) {}
@@ -214,7 +214,7 @@ private:
     return tl::unexpected(Failure{ExitCode::File, std::move(message)});
   }
 
-  /// A file of an earlier report, known by its name.
+  /// Removes a file of an earlier report, recognised by its name.
   static void remove_old(const fs::path& path) {
     const auto stem = path.stem().string();
     const bool ours = (path.extension() == ".svg" || path.extension() == ".html") &&
@@ -273,7 +273,7 @@ tl::expected<testing::SuiteOptions, Failure> suite_options(const Context& contex
   return wanted;
 }
 
-/// Tells what is wrong with the test files; whether nothing is run for it.
+/// Prints the findings of the test files; returns true if nothing may run because of them.
 bool are_wrong(Context& context, const testing::Suite& suite) {
   bool wrong = false;
   for (const auto& file : suite.files)
@@ -299,7 +299,7 @@ tl::expected<void, Failure> write_results(const Context& context, const TestOpti
   return {};
 }
 
-/// Prints the results, and leaves the exit code that they are worth.
+/// Prints the results and sets the exit code.
 tl::expected<void, Failure> tell_results(Context& context, const TestOptions& options,
                                          const testing::Results& results) {
   if (auto written = write_results(context, options, results); !written)
@@ -309,7 +309,7 @@ tl::expected<void, Failure> tell_results(Context& context, const TestOptions& op
   return {};
 }
 
-/// Joins the results of shards.
+/// Merges the results of shards.
 tl::expected<void, Failure> join(Context& context, const TestOptions& options) {
   if (!options.report.empty() || !options.programs.empty() || !options.class_folder.empty() ||
       !options.seeds.empty() || !options.shard.empty() || !options.only.empty() ||
@@ -335,7 +335,7 @@ tl::expected<void, Failure> join(Context& context, const TestOptions& options) {
   return tell_results(context, options, *results);
 }
 
-/// That a test file stands among the programs, where everything after `--program` belongs.
+/// Reports a test file among the programs: `--program` takes all words after it.
 tl::expected<void, Failure> check_programs(const TestOptions& options) {
   if (!options.class_folder.empty() && !options.programs.empty())
     return tl::unexpected(
@@ -354,7 +354,7 @@ tl::expected<void, Failure> check_programs(const TestOptions& options) {
   return {};
 }
 
-/// What `--program` names, as far as it can be read.
+/// Reads what `--program` names, as far as possible.
 tl::expected<void, Failure> add_programs(const TestOptions& options,
                                          const std::vector<testing::GivenFile>& tests,
                                          testing::SuiteOptions& wanted,
@@ -384,8 +384,8 @@ tl::expected<void, Failure> report_and_tell(Context& context, const TestOptions&
   return tell_results(context, options, results);
 }
 
-/// The tests on a robot, one after the other. What is known of it is told, even where the link was
-/// lost in the middle.
+/// Runs the tests on a robot, one after the other. Prints the results known so far even if the link
+/// is lost.
 tl::expected<void, Failure> test_robot(Context& context, const TestOptions& options,
                                        const testing::Suite& suite, testing::RunOptions run,
                                        const std::map<std::string, std::string>& names) {
@@ -394,7 +394,9 @@ tl::expected<void, Failure> test_robot(Context& context, const TestOptions& opti
   if (!robot)
     return tl::unexpected(robot.error());
   RobotStage stage(**robot, options.yes ? Attended::No : Attended::Yes, suite.cases);
-  run.play = [&](auto&... all) { return stage.play(all...); };
+  run.judge = [&](const auto&... one) {
+    return testing::play_case(one..., [&](auto&... all) { return stage.play(all...); });
+  };
   NoBar none;
   const auto results = testing::run_suite(suite, run, none);
   if (auto told = report_and_tell(context, options, suite, results, names); !told)
@@ -404,7 +406,7 @@ tl::expected<void, Failure> test_robot(Context& context, const TestOptions& opti
   return {};
 }
 
-/// Options that belong to a robot, or cannot go with one.
+/// Checks options that need a robot, or exclude one.
 tl::expected<void, Failure> check_port(const TestOptions& options) {
   const auto refuse = [](std::string message) {
     return tl::unexpected(Failure{ExitCode::Usage, std::move(message)});
@@ -494,7 +496,7 @@ void add_test(const Command& orb, Context& context) {
       .check(whole_number(0, most_jobs))
       .show_default();
   command.add_option("--seeds", options->seeds, "the seeds for every test, such as 1..200");
-  command.add_option("--only", options->only, "runs only the test with this name");
+  command.add_option("--only", options->only, "run only the test with this name");
   command.add_option("--shard", options->shard,
                      "a share of the runs: 3/16 is the third of sixteen");
   std::vector<std::string> formats(testing::format_names().begin(), testing::format_names().end());

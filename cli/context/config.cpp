@@ -20,8 +20,8 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view project_file = "orb.toml";
 
-/// What a project's file may set: it comes with what somebody else has written. No output, and
-/// nothing that writes.
+/// The options that a project's file may set. Somebody else may have written it, so it cannot
+/// choose outputs or write anything.
 // clang-format off
 constexpr auto project_options = std::to_array<std::string_view>({
     "target", "ram", "area", "executive", "firmware",                                     // the ball
@@ -32,7 +32,7 @@ constexpr auto project_options = std::to_array<std::string_view>({
 });
 // clang-format on
 
-/// Found by walking up to the root of the repository or to the user's home.
+/// Looks in each folder upwards, as far as the root of the repository or the user's home.
 std::optional<fs::path> nearest_project_file() {
   std::error_code error;
   const auto home = user_home();
@@ -52,7 +52,7 @@ std::optional<fs::path> nearest_project_file() {
   return std::nullopt;
 }
 
-/// The commands that a setting of section `command` speaks to.
+/// The commands that a setting of section `command` applies to.
 std::vector<Command> addressed(const Command& orb, const std::string& command) {
   auto all = orb.commands();
   if (!command.empty())

@@ -20,7 +20,7 @@ struct Section {
   std::string place; ///< `FILE:LINE:COLUMN`
 };
 
-/// One setting of a configuration file, with the place it came from for messages.
+/// One setting of a configuration file, with its place for messages.
 struct Setting {
   std::string file;
   std::string place; ///< `FILE:LINE:COLUMN`
@@ -32,12 +32,12 @@ struct Setting {
 /// A robot with a name: `[balls] red = "URL"`, or `red = { port = "URL", robot = "bolt" }`.
 struct KnownBall {
   std::string url;
-  std::string robot;      ///< a row of spec/robots.def; empty where its port has to tell
+  std::string robot;      ///< a row of spec/robots.def; empty if the port has to tell
   std::string place;      ///< `FILE:LINE:COLUMN`
-  std::uint32_t line = 0; ///< in its file
+  std::uint32_t line = 0; ///< line in its file
 };
 
-/// Robots that are named together: `[groups] front = ["red", "blue"]`.
+/// A group of robots: `[groups] front = ["red", "blue"]`.
 struct Group {
   struct Member {
     std::string name;
@@ -47,12 +47,12 @@ struct Group {
   std::string place;
 };
 
-/// What the configuration files say: `orb.toml`, found by walking up from the working folder, over
-/// `$XDG_CONFIG_HOME/orb/config.toml`.
+/// The contents of the configuration files. `orb.toml`, found upwards from the working folder,
+/// overrides `$XDG_CONFIG_HOME/orb/config.toml`.
 struct Config {
   std::map<std::string, KnownBall> balls; ///< used as `@red`
   std::map<std::string, Group> groups;    ///< used as `@front`
-  std::vector<Setting> settings;          ///< weakest first
+  std::vector<Setting> settings;          ///< later ones override earlier ones
 };
 
 /// Why a configuration cannot be used: the sentence to print.
@@ -63,17 +63,17 @@ struct ConfigError {
 /// Reads the configuration files; missing ones are fine.
 tl::expected<Config, ConfigError> load_config();
 
-/// Reads a file of robots: `[balls]` and `[groups]`, and nothing else.
+/// Reads a file of robots: `[balls]` and `[groups]` only.
 tl::expected<Config, ConfigError> read_roster(const std::string& file);
 
-/// Makes the settings the defaults of the options they name, so that flags and environment stay
-/// stronger. An unknown section, option or value is an error.
+/// Makes the settings the defaults of their options; flags and environment still override them.
+/// Unknown sections, options and values are errors.
 tl::expected<void, ConfigError> apply_config(const Config& config, const Command& orb);
 
-/// Why a text is no TOML, as the library says it, without its preface.
+/// The library's message for a TOML error, without its preface.
 std::string toml_words(std::string_view description);
 
-/// The names in one of its maps.
+/// The names in a map.
 template <class Map>
 std::vector<std::string> names_in(const Map& map) {
   std::vector<std::string> names;
@@ -82,10 +82,10 @@ std::vector<std::string> names_in(const Map& map) {
   return names;
 }
 
-/// What is said of a name that nothing has; `names` are those that could be meant.
+/// The message for an unknown name; `names` are the candidates.
 std::string unknown_ball(const std::string& name, const std::vector<std::string>& names);
 
-/// The URL that `port` stands for: the ball's URL for `@name`, else `port` itself.
+/// Returns the URL for `@name`, else `port` itself.
 tl::expected<std::string, ConfigError> resolve_port(const Config& config, const std::string& port);
 
 } // namespace orb::cli

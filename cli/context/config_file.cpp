@@ -28,8 +28,8 @@ std::string place_in(const std::string& file, const toml::node& node) {
   return place_in(file, node.source().begin);
 }
 
-/// The words of one value, as if they stood on the command line; nothing for what cannot.
-std::optional<std::string> words_of(const toml::node& value) {
+/// A value as words of a command line; nothing if it cannot be one.
+std::optional<std::string> value_words(const toml::node& value) {
   if (const auto* text = value.as_string())
     return text->get();
   if (const auto* number = value.as_integer())
@@ -51,14 +51,14 @@ values_of(const std::string& file, std::string_view name, const toml::node& node
   };
   if (const auto* list = node.as_array()) {
     for (const auto& value : *list) {
-      auto words = words_of(value);
+      auto words = value_words(value);
       if (!words)
         return wrong(value);
       values.push_back(*std::move(words));
     }
     return values;
   }
-  auto words = words_of(node);
+  auto words = value_words(node);
   if (!words)
     return wrong(node);
   values.push_back(*std::move(words));
@@ -178,7 +178,7 @@ std::string toml_words(std::string_view description) {
 
 namespace {
 
-/// A value that is no TOML, mostly because it stands without quotes: `for = 60s`.
+/// The hint for a value that is invalid TOML, usually for lack of quotes: `for = 60s`.
 std::string quotes_help(const std::string& text, std::uint32_t number) {
   std::istringstream stream(text);
   std::string line;

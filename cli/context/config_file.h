@@ -8,7 +8,7 @@
 #include <string_view>
 #include <tl/expected.hpp>
 
-// What stands in a configuration file, for those who read and write them. Private to this folder.
+// The syntax of configuration files, for code that reads or writes them. Private to this folder.
 
 namespace orb::cli {
 
@@ -18,10 +18,10 @@ inline constexpr std::string_view groups_section = "groups";
 /// A message with its place.
 ConfigError problem(const std::string& where, std::string_view what);
 
-/// Adds what the text says to `config`; `file` is its name for messages.
+/// Adds the settings in a text to `config`; `file` is its name for messages.
 tl::expected<void, ConfigError> read_text_into(Config& config, const std::string& file,
                                                const std::string& text);
-/// The same with the text of a file.
+/// The same for a file.
 tl::expected<void, ConfigError> read_into(Config& config, const std::filesystem::path& path);
 
 } // namespace orb::cli

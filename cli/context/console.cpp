@@ -22,8 +22,8 @@ int descriptor(Stream stream) {
   return STDERR_FILENO;
 }
 
-/// Keeps a closed stdin, stdout or stderr from being the next file or socket that is opened, where
-/// what is printed would then go. Reading and writing it stay errors.
+/// Opens a closed stdin, stdout or stderr as a dummy. Otherwise the next file or socket would take
+/// its number and receive what is printed. Using the stream is still an error.
 void keep_standard_streams_apart() {
   for (const int fd : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
     if (::fcntl(fd, F_GETFD) < 0)
@@ -34,7 +34,8 @@ void keep_standard_streams_apart() {
 
 std::vector<std::string> begin_process(int argc, char** argv) {
   keep_standard_streams_apart();
-  // A closed pipe or socket, or a file as large as it may be, is an error to handle, not a death.
+  // Makes writing to a closed pipe or socket, or beyond the file size limit, an error instead of a
+  // fatal signal.
   std::signal(SIGPIPE, SIG_IGN);
   std::signal(SIGXFSZ, SIG_IGN);
   return {argv, argv + argc};

@@ -14,7 +14,7 @@
 #include <thread>
 #include <windows.h>
 
-#include <shellapi.h> // needs what that declares
+#include <shellapi.h> // needs windows.h
 
 namespace orb::cli {
 namespace {
@@ -28,12 +28,12 @@ HANDLE handle(Stream stream) {
   return ::GetStdHandle(STD_ERROR_HANDLE);
 }
 
-/// Reads standard input ahead, on a thread of its own, where nobody tells whether something waits:
-/// Wine does not for pipes of Unix.
+/// Reads standard input ahead on its own thread, because the system does not always tell if input
+/// is waiting: Wine does not for Unix pipes.
 class ReadAhead {
 public:
   ReadAhead() {
-    std::thread([this] { fill(); }).detach(); // it may wait for ever, until the process ends
+    std::thread([this] { fill(); }).detach(); // it may block until the process ends
   }
 
   bool waits() {
@@ -70,11 +70,11 @@ private:
   bool ended_ = false;
 };
 
-ReadAhead* ahead = nullptr; ///< outlives everything: its thread may wait for ever
+ReadAhead* ahead = nullptr; ///< never freed: its thread may block forever
 
 UINT code_page_before = 0;
 
-/// The console outlives this process: it speaks as before then.
+/// Restores the code page: the console outlives this process.
 void give_back_code_page() {
   ::SetConsoleOutputCP(code_page_before);
 }
@@ -83,7 +83,7 @@ std::string in_utf8(const wchar_t* text) {
   const int size = ::WideCharToMultiByte(CP_UTF8, 0, text, -1, nullptr, 0, nullptr, nullptr);
   std::string out(static_cast<std::size_t>(size), '\0');
   ::WideCharToMultiByte(CP_UTF8, 0, text, -1, out.data(), size, nullptr, nullptr);
-  out.pop_back(); // the zero at its end
+  out.pop_back(); // the terminating zero
   return out;
 }
 
@@ -99,7 +99,7 @@ std::wstring in_utf16(std::string_view text) {
 
 std::vector<std::string> begin_process(int argc, char** argv) {
   for (const int fd : {0, 1, 2})
-    ::_setmode(fd, _O_BINARY); // what is written is what arrives
+    ::_setmode(fd, _O_BINARY); // no line end conversion
   if (is_terminal(Stream::Out) || is_terminal(Stream::Err)) {
     code_page_before = ::GetConsoleOutputCP();
     ::SetConsoleOutputCP(CP_UTF8);
@@ -139,7 +139,7 @@ bool input_waits() {
     if (::PeekNamedPipe(in, nullptr, 0, nullptr, &count, nullptr) != 0)
       return count > 0;
     if (::GetLastError() != ERROR_NOT_SUPPORTED)
-      return true; // at its end a read comes back at once, too
+      return true; // at its end, a read does not block either
     ahead = new ReadAhead;
     return ahead->waits();
   }
@@ -153,13 +153,13 @@ ssize_t read_input(std::span<char> bytes) {
                           : ::_read(0, bytes.data(), static_cast<unsigned>(bytes.size()));
 }
 
-/// The C library would hand a console one byte after another, none of which is a letter of UTF-8.
+/// Bypasses the C library, which hands a console single bytes and so splits UTF-8 characters.
 bool write_to(Stream stream, std::string_view text) {
   if (!is_terminal(stream)) {
     auto* const file = stream == Stream::Out ? stdout : stderr;
     return std::fwrite(text.data(), 1, text.size(), file) == text.size() && std::fflush(file) == 0;
   }
-  constexpr std::size_t at_once = 8192; // a console takes no more than 64 KB
+  constexpr std::size_t at_once = 8192; // bytes; a console takes no more than 64 KB
   const auto wide = in_utf16(text);
   for (std::wstring_view left = wide; !left.empty();) {
     const auto size = std::min(left.size(), at_once);
@@ -185,7 +185,7 @@ std::pair<std::size_t, std::size_t> screen() {
 }
 
 void end_if_unread(int error) {
-  // The C library knows of one of the ways in which a pipe breaks; the others are EINVAL to it.
+  // The C library maps one kind of broken pipe to EPIPE and the others to EINVAL.
   if (error == EPIPE || (error == EINVAL && ::GetFileType(handle(Stream::Out)) == FILE_TYPE_PIPE))
     std::_Exit(ERROR_BROKEN_PIPE);
 }

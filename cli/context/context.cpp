@@ -31,8 +31,8 @@ Style style_for(const std::string& color, Stream stream) {
   return {can_draw(stream)};
 }
 
-/// A message is a line of its own, whatever names are in it: what comes after the end of a line
-/// would be read by a CI as something else.
+/// Keeps a message on one line, even if names in it contain line ends: a CI would read the next
+/// line as something else.
 std::string on_one_line(std::string_view message) {
   std::string out;
   for (const char c : message)
@@ -43,17 +43,17 @@ std::string on_one_line(std::string_view message) {
   return out;
 }
 
-/// Empty where this thread prints to the streams of the process.
+/// Empty if this thread prints to the streams of the process.
 thread_local OutputTap::Take tap;
 
-/// Whether the tap has taken it.
+/// Returns true if the tap took it.
 bool is_taken(OutputTap::Stream stream, std::string_view text) {
   if (tap)
     tap(stream, text);
   return static_cast<bool>(tap);
 }
 
-/// A ball's or a file's name must not drive the user's terminal.
+/// Escapes control characters: the name of a ball or file must not control the user's terminal.
 bool print_to(Stream stream, std::string_view text) {
   std::string shown;
   if (is_terminal(stream))
@@ -86,8 +86,8 @@ OutputTap::Closed::~Closed() {
 }
 
 void print_out(std::string_view text) {
-  // What is cleaned up after a first failure may still want to say something, such as a ball whose
-  // client leaves. A second exception would be the end of the process.
+  // Clean-up after a failure may still print, for instance that a ball's client has left. A second
+  // exception would terminate the process.
   if (std::uncaught_exceptions() > 0)
     return;
   if (is_taken(OutputTap::Stream::Out, text))
@@ -104,6 +104,11 @@ void print_err(std::string_view text) {
 void print_note(const Context& context, std::string_view message) {
   if (!context.quiet)
     print_err(fmt::format("{}\n", on_one_line(message)));
+}
+
+void print_warning(const Context& context, std::string_view message) {
+  print_err(fmt::format("orb: {}: {}\n", context.err_style().paint(Role::Warning, "warning"),
+                        on_one_line(message)));
 }
 
 void print_error(const Context& context, std::string_view message) {

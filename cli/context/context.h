@@ -11,24 +11,24 @@
 
 namespace orb::cli {
 
-/// What every command shares: the options that stand before or after any command, and the code it
-/// ends with. One per process, made in main().
+/// State that all commands share: the global options and the exit code. One per process, made in
+/// main().
 struct Context {
   bool quiet = false;
   int verbosity = 0; ///< 1 for -v, 2 for -vv (wire trace)
   std::string color = "auto";
-  std::string ui_language; ///< of findings; empty for that of the environment
+  std::string ui_language; ///< of findings; empty: from the environment
   Config config;
   ExitCode exit = ExitCode::Done;
 
-  /// Whether text on stdout, or on stderr, is coloured: the flag, then CLICOLOR_FORCE, NO_COLOR,
-  /// TERM=dumb, then whether it is a terminal.
+  /// The style for stdout and stderr. In order of precedence: the flag, CLICOLOR_FORCE, NO_COLOR,
+  /// TERM=dumb, and whether the stream is a terminal.
   Style out_style() const;
   Style err_style() const;
 };
 
-/// Takes what this thread prints in place of stdout and stderr, as long as it lives: for commands
-/// that speak to several robots at once.
+/// Captures what this thread prints to stdout and stderr during its lifetime, for commands that
+/// work with several robots at once.
 class OutputTap {
 public:
   enum class Stream : std::uint8_t { Out, Err };
@@ -38,7 +38,7 @@ public:
   OutputTap(const OutputTap&) = delete;
   OutputTap& operator=(const OutputTap&) = delete;
 
-  /// What this thread prints goes to the streams all the same, as long as it lives.
+  /// Lets this thread print to the real streams during its lifetime.
   class Closed {
   public:
     Closed();
@@ -51,23 +51,26 @@ public:
   };
 };
 
-/// Writes to stdout. Where that fails the command ends (OutputError): silently when the reader went
-/// away (a closed pipe).
+/// Writes to stdout. A failure throws OutputError, which ends the command; silently if the reader
+/// has closed the pipe.
 void print_out(std::string_view text);
 
 /// Writes to stderr.
 void print_err(std::string_view text);
 
-/// Prints a note to stderr, a line, unless -q was given.
+/// Prints a one-line note to stderr, unless -q was given.
 void print_note(const Context& context, std::string_view message);
+
+/// Prints `orb: warning: MESSAGE` to stderr.
+void print_warning(const Context& context, std::string_view message);
 
 /// Prints `orb: error: MESSAGE` to stderr.
 void print_error(const Context& context, std::string_view message);
 
-/// Prints how something ended: a note where that is Done, else an error, which -q does not silence.
+/// Prints how something ended: a note for Done, else an error, which -q does not suppress.
 void print_ended(const Context& context, ExitCode how, std::string_view message);
 
-/// Prints why the command cannot do what it should, and leaves the code to end with.
+/// Prints the failure and sets its exit code.
 void fail(Context& context, const Failure& failure);
 
 } // namespace orb::cli

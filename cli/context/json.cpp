@@ -37,7 +37,7 @@ void put_fields(Json& json, const protocol::Parts& parts) {
     const Json value = field.number ? Json(*field.number) : Json(field.text);
     if (!fields.contains(field.name))
       fields[field.name] = value;
-    else if (fields[field.name].is_array()) // the frames of a stream name each sensor again
+    else if (fields[field.name].is_array()) // each frame of a stream repeats the sensor names
       fields[field.name].push_back(value);
     else
       fields[field.name] = Json::array({fields[field.name], value});

@@ -18,17 +18,18 @@ using Json = nlohmann::ordered_json;
 /// Adds `--format text|json`.
 void add_format_option(const Command& command, std::string& format);
 
-/// The fields of a packet by name: numbers and texts; what numbers stand for is a second object.
+/// Adds the fields of a packet by name: numbers and texts. The names of numbers go into a second
+/// object.
 void put_fields(Json& json, const protocol::Parts& parts);
 
-/// One thing found on the wire: a packet with its fields, or bytes that are not a packet
-/// (docs/json.md).
+/// An item found on the wire: a packet with its fields, or bytes outside packets
+/// (docs/reference/json.md).
 Json packet_json(protocol::Describer& describer, const protocol::Item& item);
 
-/// A message of the ball, as packet_json() tells it.
+/// A message of the ball, in the form of packet_json().
 Json message_json(const protocol::Async& message);
 
-/// Prints a value on a line of its own.
+/// Prints a value on one line.
 void print_json(const Json& json);
 
 } // namespace orb::cli

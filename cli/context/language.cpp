@@ -12,7 +12,7 @@
 namespace orb::cli {
 namespace {
 
-/// `de` of `de_DE.UTF-8`; what POSIX calls `C` is in no language that a translation has.
+/// `de` from `de_DE.UTF-8`. POSIX's `C` matches no translation.
 std::string language_of_environment() {
   for (const char* name : {"LC_ALL", "LC_MESSAGES", "LANG"})
     if (const char* value = std::getenv(name); value != nullptr && *value != '\0') {
@@ -22,7 +22,7 @@ std::string language_of_environment() {
   return {};
 }
 
-/// What is in the catalogue of that language, if the program has it.
+/// The catalogue of a language, if the program includes it.
 std::optional<Catalogue> catalogue_of(std::string_view code) {
   const auto all = translations();
   if (code == pseudo_language && !all.empty())

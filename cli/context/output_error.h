@@ -2,10 +2,9 @@
 
 namespace orb::cli {
 
-/// Stdout takes no more. Thrown by print_out() to end whatever the command was doing; main() knows
-/// what to say.
+/// Thrown by print_out() if stdout takes no more; ends the current command. main() reports it.
 struct OutputError {
-  int error; ///< as errno; EPIPE where the reader has left
+  int error; ///< errno; EPIPE if the reader has left
 };
 
 } // namespace orb::cli

@@ -17,26 +17,26 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A line without what stands around it.
+/// A line without surrounding blanks.
 std::string_view trimmed(const std::string& line) {
   return trim(std::string_view(line).substr(0, line.find('\r')));
 }
 
-/// `[balls]`, whatever follows it.
+/// True for `[balls]`, whatever follows it.
 bool opens_section(const std::string& line, std::string_view name) {
   const auto text = trimmed(line);
   return text.starts_with("[") && text.find(']') != text.npos &&
          trim(text.substr(1, text.find(']') - 1)) == name;
 }
 
-/// Whether a line gives `name` a value: `name = …`.
+/// True if a line sets `name`: `name = …`.
 bool sets(const std::string& line, std::string_view name) {
   const auto text = trimmed(line);
   const auto equals = text.find('=');
   return equals != text.npos && trim(text.substr(0, equals)) == name;
 }
 
-/// What follows the value of a line: blanks and a comment, or nothing.
+/// What follows the value on a line: blanks and a comment, or nothing.
 std::string comment_of(const std::string& line) {
   const auto equals = line.find('=');
   const auto open = line.find_first_of("\"'", equals);
@@ -55,7 +55,7 @@ std::vector<std::string> lines_of(const std::string& text) {
   return lines;
 }
 
-/// The text with `name = "url"` in its section of balls.
+/// Returns the text with `name = "url"` in the section of balls.
 std::string with_ball(const std::string& text, const std::string& name, const std::string& url) {
   auto lines = lines_of(text);
   const auto opened = std::ranges::find_if(
@@ -74,7 +74,7 @@ std::string with_ball(const std::string& text, const std::string& name, const st
     if (old != end) {
       *old = setting + comment_of(*old);
     } else {
-      auto after = end; // the last line of the section that says something
+      auto after = end; // after the last line with content in the section
       while (trimmed(*(after - 1)).empty())
         --after;
       lines.insert(after, setting);
@@ -88,7 +88,7 @@ bool same_but_for_place(const Setting& one, const Setting& other) {
          one.values == other.values;
 }
 
-/// Whether both name the same robots, wherever in the file.
+/// True if both name the same robots, in any order.
 bool same_balls(const Config& one, const Config& other) {
   return std::ranges::equal(one.balls, other.balls, [](const auto& a, const auto& b) {
     return a.first == b.first && a.second.url == b.second.url && a.second.robot == b.second.robot;
@@ -132,7 +132,7 @@ tl::expected<std::string, Failure> save_ball(const std::string& name, const std:
   if (fs::create_directories(disk::as_path(*folder), error); error)
     return unsaved(ExitCode::File,
                    fmt::format("cannot create the folder for {}: {}", file, error.message()));
-  // From reading it to writing it again nobody else may.
+  // Nobody else may write between our reading and our writing.
   constexpr Duration patience = 5s;
   const auto lock = disk::Lock::take(file, patience, "wait until it has finished, then save again");
   if (!lock)
@@ -149,7 +149,7 @@ tl::expected<std::string, Failure> save_ball(const std::string& name, const std:
   if (auto read = read_text_into(before, file, text); !read)
     return unsaved(ExitCode::Usage, read.error().message);
   before.balls[name].url = url;
-  Config after; // what will be read of it
+  Config after; // parsed again as a check
   if (!read_text_into(after, file, edited) || !same_balls(after, before) ||
       !std::ranges::equal(after.settings, before.settings, same_but_for_place))
     return unsaved(ExitCode::Usage, fmt::format("{0}: cannot edit its `[balls]`; write "

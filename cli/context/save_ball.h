@@ -7,14 +7,13 @@
 
 namespace orb::cli {
 
-/// Letters, digits, - and _.
+/// True for letters, digits, - and _.
 bool is_ball_name(const std::string& name);
 
-/// The folder of the user's settings; it need not be there. Fails where the user has none.
+/// The folder of the user's settings; it may not exist yet. Fails if the user has no home for it.
 tl::expected<std::string, Failure> settings_folder();
 
-/// Makes `@name` stand for `url` in the user's file; all else in it stays as it is. The file's
-/// path.
+/// Sets `@name` to `url` in the user's file and keeps the rest. Returns the path of the file.
 tl::expected<std::string, Failure> save_ball(const std::string& name, const std::string& url);
 
 } // namespace orb::cli

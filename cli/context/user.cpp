@@ -23,7 +23,7 @@ std::optional<fs::path> user_file() {
   return std::nullopt;
 }
 
-/// Root in the user's name (sudo) takes what is the user's.
+/// Accepts files of the user behind sudo, too.
 bool is_trusted(const fs::path& path) {
   struct stat status {};
   if (::stat(path.c_str(), &status) != 0)

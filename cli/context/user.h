@@ -5,14 +5,14 @@
 
 namespace orb::cli {
 
-/// The user's home; nothing where there is none.
+/// The user's home; nothing if there is none.
 std::optional<std::filesystem::path> user_home();
 
-/// The user's own settings, which need not be there; nothing where there is no place for them.
+/// The user's settings file, which may not exist yet; nothing if there is no place for it.
 std::optional<std::filesystem::path> user_file();
 
-/// Whether a file is the user's, or of whoever administers this computer: what somebody else has
-/// put into a folder above is not obeyed.
+/// True if a file belongs to the user or an administrator. Others could put a file into a parent
+/// folder, so theirs is ignored.
 bool is_trusted(const std::filesystem::path& path);
 
 } // namespace orb::cli

@@ -5,7 +5,7 @@
 #include <string>
 #include <windows.h>
 
-#include <aclapi.h> // needs what that declares
+#include <aclapi.h> // needs windows.h
 
 namespace orb::cli {
 

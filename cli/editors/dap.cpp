@@ -1,6 +1,6 @@
 #include "cli/context/console.h"
 #include "cli/editors/commands.h"
-#include "cli/editors/wire.h"
+#include "cli/editors/stdio_wire.h"
 #include "cli/input/inputs.h"
 #include "cli/model/checks.h"
 #include "cli/robot/driven_robot.h"
@@ -17,7 +17,7 @@
 namespace orb::cli {
 namespace {
 
-/// The robot that `launch` names.
+/// Connects the robot that `launch` names.
 tl::expected<std::shared_ptr<run::HeldRobot>, Failure>
 robot_at(const Context& context, const std::string& port, const std::string& kind) {
   if (!kind.empty() && spec::find_robot(kind) == nullptr) {
@@ -34,9 +34,9 @@ robot_at(const Context& context, const std::string& port, const std::string& kin
   return hold_robot(context, options, kind);
 }
 
-/// Serves until the client says `disconnect` or goes away.
+/// Serves until the client sends `disconnect` or closes the stream.
 ExitCode serve_debugger(const Context& context) {
-  const InterruptGuard guard; // a robot is put back as it was, however this ends
+  const InterruptGuard guard; // the robot is restored on every way out
   DiskFiles disk;
   std::error_code none;
   editor::DebugAdapter adapter(disk, std::filesystem::current_path(none).generic_string(),
@@ -54,7 +54,7 @@ ExitCode serve_debugger(const Context& context) {
     if (n < 0 && errno == EINTR && InterruptGuard::asked() == 0)
       continue;
     if (n <= 0)
-      return adapter.ended() ? ExitCode::Done : ExitCode::BadInput; // gone without a word
+      return adapter.ended() ? ExitCode::Done : ExitCode::BadInput; // closed without `disconnect`
     reader.feed({bytes.data(), static_cast<std::size_t>(n)});
     while (const auto event = reader.next()) {
       send_all(event->is_error ? adapter.receive_garbage(event->text)

@@ -62,14 +62,14 @@ ExitCode converse(debug::Shell& shell, const std::vector<std::string>& commands)
     std::string line;
     if (!std::getline(std::cin, line))
       break;
-    if (!terminal) // as a terminal would show it
+    if (!terminal) // echoes input as a terminal would
       print_out(fmt::format("{}{}\n", prompt, line));
     obey(shell, line);
   }
   return ExitCode::Done;
 }
 
-/// What is wrong with a source may be several errors.
+/// A failure may hold several errors: prints one per line.
 void fail_by_line(Context& context, const Failure& failure) {
   std::string_view rest = failure.message;
   for (auto end = rest.find('\n'); end != std::string_view::npos; end = rest.find('\n')) {
@@ -86,7 +86,7 @@ robot_for(const Context& context, const debug::Launched& launched, const DebugOp
   return hold_robot(context, options.port, options.robot);
 }
 
-/// What the options ask for, as far as they go together.
+/// Translates the options; fails for combinations that do not go together.
 tl::expected<debug::Launch, Failure> launch_of(const DebugOptions& options) {
   const auto refuse = [](std::string_view message) {
     return tl::unexpected(Failure{ExitCode::Usage, std::string(message)});
@@ -123,7 +123,7 @@ void debug_it(Context& context, const DebugOptions& options) {
   const auto launched = debug::read(*launch, files);
   if (!launched)
     return fail_by_line(context, launched.error());
-  std::optional<InterruptGuard> guard; // however it ends, the robot is put back as it was
+  std::optional<InterruptGuard> guard; // the robot is restored on every way out
   std::shared_ptr<run::HeldRobot> robot;
   if (!options.port.port.empty()) {
     guard.emplace();

@@ -1,6 +1,6 @@
 #include "cli/context/console.h"
 #include "cli/editors/commands.h"
-#include "cli/editors/wire.h"
+#include "cli/editors/stdio_wire.h"
 #include "cli/input/inputs.h"
 #include "disk/disk.h"
 #include "editor/lsp/language_server.h"
@@ -16,12 +16,12 @@
 namespace orb::cli {
 namespace {
 
-/// The files that an editor's folders hold.
+/// The files in the editor's workspace folders.
 class DiskFolders final : public editor::Folders {
 public:
   std::vector<std::string> sources(const std::string& root) override {
     constexpr std::size_t most_files = 500;
-    constexpr std::size_t most_entries = 20000; // a home directory shall not stop an editor
+    constexpr std::size_t most_entries = 20000; // keeps a home directory from blocking the editor
     namespace fs = std::filesystem;
     std::vector<std::string> found;
     std::error_code error;
@@ -45,7 +45,7 @@ public:
   }
 };
 
-/// Serves until the client says `exit` or goes away.
+/// Serves until the client sends `exit` or closes the stream.
 ExitCode serve_editor() {
   DiskFiles disk;
   DiskFolders folders;
@@ -53,7 +53,7 @@ ExitCode serve_editor() {
   editor::MessageReader reader;
   std::array<char, 65536> bytes{};
   for (bool open = true; open || server.has_waiting();) {
-    // What has arrived is taken before the next answer, so that it can cancel what waits.
+    // Reads arrived messages before the next answer, so that they can cancel waiting requests.
     if (open && (!server.has_waiting() || client_speaks())) {
       const auto n = read_input(bytes);
       if (n < 0 && errno == EINTR)
@@ -71,7 +71,7 @@ ExitCode serve_editor() {
     if (const auto well = server.ended_well())
       return *well ? ExitCode::Done : ExitCode::BadInput;
   }
-  return ExitCode::BadInput; // the client went away without a word
+  return ExitCode::BadInput; // the client closed without `exit`
 }
 
 } // namespace

@@ -6,7 +6,7 @@
 
 namespace orb::cli {
 
-/// Writes the grammars and syntax files of all editors into `folder`, each at its path below
+/// Writes the grammars and syntax files of all editors into `folder`, with their paths below
 /// docs/editors.
 void write_editor_files(Context& context, const std::string& folder);
 

@@ -31,10 +31,11 @@ std::optional<std::string> DiskFiles::read(const std::string& path) {
     auto text = links_.read(path);
     return text ? std::optional(*std::move(text)) : std::nullopt;
   }
-  // Reading from anything but a file can wait for ever.
+  // Reading anything but a regular file can block forever.
   if (!disk::what_else(path).empty())
     return std::nullopt;
-  auto text = disk::read(path == "-" ? "./-" : path); // a file of that name, never standard input
+  // `-` is a file name here, never standard input
+  auto text = disk::read(path == "-" ? "./-" : path);
   return text ? std::optional(*std::move(text)) : std::nullopt;
 }
 
@@ -54,7 +55,7 @@ Message DiskFiles::trouble(const std::string& path) {
 }
 
 std::string DiskFiles::identity(const std::string& path) {
-  std::error_code unknown; // a file that is not there
+  std::error_code unknown; // for a file that does not exist
   const auto real = std::filesystem::canonical(disk::as_path(path), unknown);
   return unknown ? Files::identity(path) : real.string();
 }

@@ -13,7 +13,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
-#define ZLIB_CONST // what is read is const
+#define ZLIB_CONST // makes zlib's input pointers const
 #include <zlib.h>
 
 namespace orb::cli {
@@ -21,11 +21,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// What the page accepts, too (limits in playground/page/workspace.js).
+// bytes; the page has the same limit (playground/page/workspace.js)
 constexpr std::size_t most_bytes = 1024 * 1024;
 constexpr std::size_t most_files = 24;
 constexpr std::size_t longest_name = 60;
-/// Behind it stands the packed program.
+/// The packed program follows.
 constexpr std::string_view mark = "#p=";
 
 constexpr std::string_view alphabet =
@@ -49,7 +49,7 @@ Bytes decode_base64url(std::string_view text) {
 
 const std::string damaged = "is damaged: part of it is missing, or something was added";
 
-/// Data that was packed as deflate, without a header; else what is wrong, a sentence's end.
+/// Unpacks raw deflate data. The error is the end of a sentence.
 tl::expected<std::string, std::string> inflate(const Bytes& packed) {
   z_stream stream{};
   if (inflateInit2(&stream, -MAX_WBITS) != Z_OK)
@@ -80,7 +80,7 @@ bool is_file_name(std::string_view name) {
          (is_letter(name[0]) || is_digit(name[0])) && std::all_of(name.begin(), name.end(), fits);
 }
 
-/// Somebody's name as one step of a path.
+/// Makes a name usable as one step of a path.
 std::string step(std::string_view name) {
   auto made = to_printable(trim(name));
   std::replace_if(
@@ -93,7 +93,7 @@ std::string text_of(const nlohmann::json& object, const char* key) {
   return found != object.end() && found->is_string() ? found->get<std::string>() : std::string();
 }
 
-/// What is packed behind the mark; where it cannot be read, only `trouble`.
+/// Unpacks the part after the mark; sets only `trouble` if it cannot be read.
 Shared read_packed(std::string_view packed) {
   const auto text = inflate(decode_base64url(packed));
   if (!text)
@@ -110,7 +110,7 @@ Shared read_packed(std::string_view packed) {
   return shared;
 }
 
-/// The words before the address in a line: a pupil's name, in a list of them.
+/// The words before the address in a line: a pupil's name in a class list.
 std::string_view words_before(std::string_view line) {
   const auto address = line.rfind("://", line.find(mark));
   if (address == std::string_view::npos)
@@ -131,7 +131,7 @@ tl::expected<std::string, Failure> read(const std::string& path) {
   return *std::move(text);
 }
 
-/// Where the name of a file of addresses ends in `path`, which goes on behind it.
+/// Where the name of a file of addresses ends within `path`.
 std::optional<std::size_t> end_of_link(const std::string& path) {
   for (auto end = path.find('/'); end != std::string::npos; end = path.find('/', end + 1)) {
     std::error_code absent;

@@ -73,7 +73,7 @@ std::size_t cut(const Policy& policy, std::vector<FileFindings>& files) {
   const auto total = counts.errors + counts.warnings + counts.infos;
   if (policy.max_errors == 0 || total <= policy.max_errors)
     return 0;
-  // How many of each severity are kept, the worst first.
+  // how many of each severity to keep, the worst first
   std::array<std::size_t, 3> keep{};
   auto left = policy.max_errors;
   const auto take = [&](Severity severity, std::size_t there) {

@@ -15,26 +15,26 @@ namespace orb::cli {
 
 class Command;
 
-/// How the user weighs findings: `--deny`, `--warn`, `--allow`, `--max-errors`. Of two that name
-/// the same rule the more particular wins (a rule over `all`), then the milder one.
+/// The user's severities: `--deny`, `--warn`, `--allow`, `--max-errors`. A rule's name wins over
+/// `all`, then the milder severity wins.
 struct Policy {
-  std::vector<std::string> deny; ///< rules that become errors; `all` for every finding
+  std::vector<std::string> deny; ///< rules to treat as errors; `all` for every finding
   std::vector<std::string> warn;
   std::vector<std::string> allow;
-  std::size_t max_errors = 100; ///< findings that are shown; 0 for all
+  std::size_t max_errors = 100; ///< how many findings to show; 0 for all
 };
 
 /// Adds the options to a command.
 void add_policy_options(const Command& command, Policy& policy);
 
-/// False, and reported, where the policy names a rule that no linter has.
+/// Returns false, and reports it, if the policy names an unknown rule.
 bool check_rules(Context& context, const Policy& policy);
 
-/// Changes severities and leaves out what is allowed.
+/// Applies the severities and removes what is allowed.
 void weigh(const Policy& policy, std::vector<Diagnostic>& diagnostics);
 
-/// Cuts the findings of all files to `max_errors`, keeping errors before warnings before infos.
-/// Returns how many were cut.
+/// Limits the findings of all files to `max_errors`, dropping infos first and errors last. Returns
+/// how many were dropped.
 std::size_t cut(const Policy& policy, std::vector<FileFindings>& files);
 
 } // namespace orb::cli

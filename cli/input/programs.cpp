@@ -23,10 +23,11 @@ namespace fs = std::filesystem;
 
 constexpr std::array<std::string_view, 3> endings{".orb", ".bas", ".macro"};
 
-/// What mail and lessons wrap programs in; nobody but the pupil or the teacher unwraps them.
+/// Archives as mail programs and learning platforms make them; the pupil or teacher has to unpack
+/// them.
 constexpr std::array<std::string_view, 4> packed_endings{".zip", ".rar", ".7z", ".tar.gz"};
 constexpr std::string_view text_ending = ".txt";
-// More names say no more about what somebody handed in.
+// Enough names to show what was handed in.
 constexpr std::size_t most_named = 3;
 
 bool has_one_of(std::string_view name, std::span<const std::string_view> all) {
@@ -37,13 +38,13 @@ bool is_program(std::string_view name) {
   return has_one_of(name, endings);
 }
 
-/// What a folder holds, in the order of names, without what is hidden.
+/// The contents of a folder by name, without hidden files.
 struct Listing {
-  std::vector<std::string> programs = {};  ///< by their endings, whatever they are
-  std::vector<std::string> texts = {};     ///< plain text, which may be a program
-  std::vector<std::string> addresses = {}; ///< files of them
+  std::vector<std::string> programs = {};  ///< known by their extensions
+  std::vector<std::string> texts = {};     ///< plain text files that may be programs
+  std::vector<std::string> addresses = {}; ///< files of addresses
   std::vector<std::string> folders = {};
-  std::vector<std::string> loops = {};  ///< links that lead nowhere
+  std::vector<std::string> loops = {};  ///< broken links
   std::vector<std::string> packed = {}; ///< archives
   std::vector<std::string> others = {};
   std::error_code error = {};
@@ -67,7 +68,7 @@ Listing list(const std::string& folder) {
     const auto name = at->path().filename().string();
     const auto path = (disk::as_path(folder) / disk::as_path(name)).generic_string();
     std::error_code unknown;
-    if (name.starts_with('.') || name == "__MACOSX") // which a Mac puts into its archives
+    if (name.starts_with('.') || name == "__MACOSX") // macOS adds it to archives
       continue;
     if (at->is_directory(unknown))
       found.folders.push_back(path);
@@ -94,11 +95,11 @@ std::string name_of(const std::string& path) {
   return disk::as_path(path).filename().string();
 }
 
-class Reader {
+class ProgramReader {
 public:
-  Reader(const std::set<std::string>& stems, const Say& say) : stems_(stems), say_(say) {}
+  ProgramReader(const std::set<std::string>& stems, const Say& say) : stems_(stems), say_(say) {}
 
-  /// What was named on the command line; why it cannot be.
+  /// Adds what a word of the command line names; returns why it cannot.
   std::optional<Failure> add(const std::string& path) {
     std::error_code error;
     const auto link = fs::symlink_status(disk::as_path(path), error);
@@ -140,7 +141,7 @@ private:
     return say_(testing::texts::CannotReadBecause(path, Message::as_is(error.message())));
   }
 
-  /// The names of programs that tests ask for.
+  /// The program names that tests ask for.
   std::string wanted() const {
     std::vector<std::string> names;
     for (const auto& stem : stems_)
@@ -189,7 +190,7 @@ private:
       add_pupil(folder);
   }
 
-  /// A text among programs and folders: somebody's program, or notes that nobody wants to test.
+  /// A text file among programs and folders: a program, or notes nobody wants to test.
   void add_loose_text(const std::string& path) {
     auto text = read_text(path);
     if (!text)
@@ -206,7 +207,7 @@ private:
       add_program(path, pupil);
   }
 
-  /// A folder among others: one pupil's. What was packed often lies in a folder of its own in it.
+  /// A folder among others: the work of one pupil. Unpacked archives often contain another folder.
   void add_pupil(const std::string& folder) {
     auto listing = list(folder);
     if (listing.error)
@@ -222,7 +223,7 @@ private:
     add_handed_in(folder, name_of(folder), listing);
   }
 
-  /// One pupil's programs: the one that is meant, if it is clear.
+  /// Chooses one pupil's program, if the choice is clear.
   void add_handed_in(const std::string& folder, const std::string& pupil, const Listing& listing) {
     const auto& programs = listing.programs.empty() ? listing.texts : listing.programs;
     const auto own = called_like_tests(programs);
@@ -238,7 +239,7 @@ private:
     }
   }
 
-  /// What lies there in place of a program.
+  /// What the folder contains in place of a program.
   std::string why_none(const std::string& folder, const Listing& listing) const {
     if (!listing.packed.empty())
       return say_(testing::texts::Packed(listing.packed.front()));
@@ -258,7 +259,7 @@ private:
         testing::texts::HoldsOther(folder, fmt::format("{}", fmt::join(there, ", ")), wanted()));
   }
 
-  /// What the playground shares: each address is one pupil's, that of `pupil` if named.
+  /// Adds addresses from the playground, one pupil each, or all for `pupil` if named.
   void add_addresses(const std::string& file, const std::string& pupil) {
     const auto whose = [&](const std::string& folder) {
       return !pupil.empty() ? pupil : folder == file ? std::string(stem(file)) : name_of(folder);
@@ -287,7 +288,7 @@ private:
   HandedIn found_;
 };
 
-/// The files of addresses in a folder and in those of its pupils.
+/// The files of addresses in a folder and in the pupils' folders.
 std::vector<std::string> addresses_of(const std::string& folder) {
   const auto listing = list(folder);
   auto files = listing.addresses;
@@ -302,7 +303,7 @@ std::vector<std::string> addresses_of(const std::string& folder) {
 
 tl::expected<HandedIn, Failure> read_programs(const std::vector<std::string>& paths,
                                               const std::set<std::string>& stems, const Say& say) {
-  Reader reader(stems, say);
+  ProgramReader reader(stems, say);
   for (const auto& path : paths)
     if (auto failure = reader.add(path))
       return tl::unexpected(*std::move(failure));
@@ -321,7 +322,7 @@ tl::expected<std::vector<testing::GivenFile>, Failure> read_class_tests(const st
   for (const auto& file : addresses_of(folder)) {
     const auto addresses = read_link_file(file);
     if (!addresses)
-      continue; // a trouble of that pupil
+      continue; // reported as that pupil's trouble
     for (const auto& address : *addresses) {
       if (!address.shared.trouble.empty())
         continue;

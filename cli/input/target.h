@@ -13,16 +13,16 @@ namespace orb::cli {
 
 class Command;
 
-/// The robot that a program is meant for, as options: `--target`, `--ram`, `--area`.
+/// Options for the robot that a program targets: `--target`, `--ram`, `--area`.
 struct TargetOptions {
   std::string version;
-  std::int32_t ram = 0; ///< 0 where not given
+  std::int32_t ram = 0; ///< 0 if not given
   std::string area = "ram";
 
   compiler::Target target() const;
 };
 
-/// Adds the options to a command. `--target` also comes from `ORB_TARGET`.
+/// Adds the options. `ORB_TARGET` also sets `--target`.
 void add_target_options(const Command& command, TargetOptions& options);
 
 } // namespace orb::cli

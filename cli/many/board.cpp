@@ -11,12 +11,12 @@
 namespace orb::cli {
 namespace {
 
-constexpr auto pause = std::chrono::milliseconds{100}; // more often nobody sees
+constexpr auto pause = std::chrono::milliseconds{100}; // more frequent updates are not visible
 constexpr std::size_t least_rows = 3;
 
 } // namespace
 
-Board::Board(const Context& context, const std::vector<Member>& members)
+Board::Board(const Context& context, const std::vector<RosterMember>& members)
     : context_(context), members_(members),
       animated_(!context.quiet && context.verbosity < 2 && can_animate()), texts_(members.size()) {
   for (const auto& member : members)
@@ -28,7 +28,7 @@ Board::~Board() {
 }
 
 void Board::show(std::size_t robot, std::string_view text) {
-  const OutputTap::Closed streams; // the board is what taps speak to
+  const OutputTap::Closed streams; // taps print through the board
   const std::lock_guard lock(mutex_);
   const bool same_rows = texts_[robot].empty() == text.empty();
   texts_[robot] = text;
@@ -57,7 +57,7 @@ void Board::print(std::size_t robot, std::string_view line) {
 }
 
 void Board::clear() {
-  if (drawn_ > 0) // print_err() lets nothing through that moves the cursor
+  if (drawn_ > 0) // print_err() would escape cursor movements
     std::fputs(fmt::format("\033[{}A\r\033[J", drawn_).c_str(), stderr);
   drawn_ = 0;
 }
@@ -86,14 +86,14 @@ void Board::draw() {
   print_err(text);
 }
 
-/// A row that is not wider than the screen: one that wraps could not be drawn over.
+/// A row cut to the screen's width: a wrapped row could not be drawn over.
 std::string Board::row(std::size_t robot, std::size_t columns) const {
   const auto text = fmt::format("{:<{}}  {}", members_[robot].name, name_width_, texts_[robot]);
   if (text.size() < columns)
     return text;
   auto end = columns - 1;
   while (end > 0 && utf8_length(std::string_view(text).substr(end)) == 0)
-    --end; // not within a character
+    --end; // do not split a character
   return text.substr(0, end);
 }
 
@@ -114,7 +114,7 @@ void Row::on_status(const uploader::Status& status, Instant now) {
 void Row::on_step(protocol::BleStep step,
                   const tl::expected<std::string, uploader::BleError>& found) {
   if (!found)
-    return; // the verdict tells
+    return; // the verdict says it
   if (step == protocol::BleStep::Find)
     if (const auto open = found->rfind('('); open != found->npos && found->ends_with(" dBm)"))
       signal_ = found->substr(open + 1, found->size() - open - 2);

@@ -14,21 +14,21 @@
 
 namespace orb::cli {
 
-/// Shows several robots at once on stderr: on a terminal a row for each that is being worked with,
-/// drawn over itself; elsewhere a line for each that is done. What the robots' programs print goes
-/// to stdout, each line with the robot's name. For several threads.
+/// Shows several robots at once on stderr: on a terminal a row for each robot in progress, updated
+/// in place; elsewhere a line for each finished one. Output of the robots' programs goes to stdout,
+/// with the robot's name before each line. Thread-safe.
 class Board {
 public:
-  Board(const Context& context, const std::vector<Member>& members);
+  Board(const Context& context, const std::vector<RosterMember>& members);
   ~Board();
   Board(const Board&) = delete;
   Board& operator=(const Board&) = delete;
 
-  /// What a robot is at from now on; an empty text takes its row off.
+  /// Sets a robot's current step; an empty text removes its row.
   void show(std::size_t robot, std::string_view text);
-  /// A line for people: `red: MESSAGE`.
+  /// Prints a line for people: `red: MESSAGE`.
   void note(std::size_t robot, std::string_view message);
-  /// A line that a robot's program has printed.
+  /// Prints a line from a robot's program.
   void print(std::size_t robot, std::string_view line);
 
 private:
@@ -37,17 +37,16 @@ private:
   std::string row(std::size_t robot, std::size_t columns) const;
 
   const Context& context_;
-  const std::vector<Member>& members_;
+  const std::vector<RosterMember>& members_;
   bool animated_;
   std::size_t name_width_ = 0;
   std::mutex mutex_;
-  std::vector<std::string> texts_; ///< of each robot; empty without a row
+  std::vector<std::string> texts_; ///< for each robot; empty without a row
   std::size_t drawn_ = 0;          ///< rows on the screen
   std::chrono::steady_clock::time_point drawn_at_{};
 };
 
-/// One of the robots on the board: hears of its upload and of the steps to it, and remembers its
-/// verdict.
+/// The board's row for one robot: shows its upload and connection steps, and keeps its verdict.
 class Row final : public uploader::Progress {
 public:
   Row(Board& board, std::size_t robot) : board_(board), robot_(robot) {}
@@ -56,10 +55,10 @@ public:
   void on_status(const uploader::Status& status, Instant now) override;
   void on_step(protocol::BleStep step, const tl::expected<std::string, uploader::BleError>& found);
 
-  /// How it ended, in a sentence, where that is not what its last error says.
+  /// How it ended, as a sentence, if its last error does not say it.
   void set_verdict(std::string verdict) { verdict_ = std::move(verdict); }
   const std::string& verdict() const { return verdict_; }
-  /// How strongly it was received, as in `-55 dBm`; empty where nothing says it.
+  /// Signal strength such as `-55 dBm`; empty if unknown.
   const std::string& signal() const { return signal_; }
 
 private:

@@ -22,20 +22,21 @@ using Clock = std::chrono::steady_clock;
 
 constexpr std::string_view error_mark = "orb: error: ";
 constexpr auto pause_before_try = std::chrono::seconds{1};
-constexpr auto notice = std::chrono::milliseconds{20}; ///< how long an interruption may go unseen
+/// longest delay until an interruption is noticed
+constexpr auto notice = std::chrono::milliseconds{20};
 
-/// What became of a robot.
+/// The result for one robot.
 struct Outcome {
   ExitCode exit = ExitCode::Interrupted;
   std::string verdict = "not started";
-  std::string out; ///< what was printed for it, where nobody saw it
+  std::string out; ///< captured output, if it was not shown
   std::string signal;
-  bool is_shown = true; ///< the verdict, among what was printed
+  bool is_shown = true; ///< the verdict is among the printed lines
   int tries = 0;
   double seconds = 0;
 };
 
-/// Makes lines of what a thread prints.
+/// Splits a thread's output into lines.
 class Lines {
 public:
   explicit Lines(std::function<void(std::string_view)> take) : take_(std::move(take)) {}
@@ -63,7 +64,7 @@ bool is_worth_a_try(ExitCode exit, TryAgain again) {
          (again == TryAgain::Lost && (exit == ExitCode::LinkLost || exit == ExitCode::Unknown));
 }
 
-/// Which of the robots share the Bluetooth adapter.
+/// Marks the robots that share the Bluetooth adapter.
 std::vector<bool> over_ble(const Roster& roster) {
   std::vector<bool> over;
   for (const auto& member : roster.members) {
@@ -73,14 +74,14 @@ std::vector<bool> over_ble(const Roster& roster) {
   return over;
 }
 
-/// Waits, unless the user asks to stop.
+/// Waits, unless the user interrupts.
 void wait_before_try() {
   for (const auto until = Clock::now() + pause_before_try;
        Clock::now() < until && InterruptGuard::asked() == 0;)
     std::this_thread::sleep_for(notice);
 }
 
-/// All robots, some at a time.
+/// Works with all robots, a few at a time.
 class Crew {
 public:
   Crew(const Context& context, const Roster& roster, int tries, const ManyOptions& options,
@@ -90,8 +91,8 @@ public:
         over_ble_(over_ble(roster)), begun_(roster.members.size()) {
     context_ = context;
     context_.config = roster.config;
-    context_.color = "never"; // what is caught here is drawn elsewhere
-    context_.quiet = false;   // what the board does not show can be a verdict
+    context_.color = "never"; // captured output is shown elsewhere
+    context_.quiet = false;   // hidden output may contain the verdict
   }
 
   std::vector<Outcome> run(std::size_t jobs) {
@@ -111,7 +112,7 @@ private:
       const auto i = *turn;
       try {
         handle(i);
-      } catch (...) { // nobody reads any more, or a bug: the others go on all the same
+      } catch (...) { // output lost, or a bug: the other robots go on
         const std::lock_guard lock(mutex_);
         broken_ = std::current_exception();
         outcomes_[i].verdict = "given up";
@@ -125,8 +126,8 @@ private:
     }
   }
 
-  /// The first that has not begun, as soon as the adapter has a link for it; nothing when all have,
-  /// or the user asks to stop.
+  /// Returns the next robot, once the adapter has a free link for it; nothing if all have begun or
+  /// the user interrupts.
   std::optional<std::size_t> next() {
     std::unique_lock lock(mutex_);
     while (InterruptGuard::asked() == 0) {
@@ -172,11 +173,11 @@ private:
       board_.note(i, outcome.verdict);
   }
 
-  /// Does the work once; what is printed meanwhile goes to the board, errors to the verdict.
+  /// Does the work once. Output goes to the board, errors to the verdict.
   void attempt(std::size_t i, Row& row) {
     auto& outcome = outcomes_[i];
     std::string error;
-    std::string last;  // of the lines that were shown, without its indent
+    std::string last;  // the last line shown, without its indent
     std::string fault; // of the program
     Lines out([&](std::string_view line) {
       if (options_.json || options_.prints == Prints::Answer)
@@ -207,7 +208,7 @@ private:
     outcome.exit = context.exit;
     outcome.is_shown = error.empty() && row.verdict().empty();
     if (!error.empty() && !last.empty())
-      error += "; " + last; // such as whether the robot has been stopped
+      error += "; " + last; // such as the result of stopping the robot
     outcome.verdict = !error.empty()           ? error
                       : !fault.empty()         ? fault
                       : !row.verdict().empty() ? row.verdict()
@@ -219,7 +220,7 @@ private:
       take_answer(i);
   }
 
-  /// An answer of one line goes into the table; a longer one before it.
+  /// Puts a one-line answer into the table, a longer one before it.
   void take_answer(std::size_t i) {
     auto& outcome = outcomes_[i];
     if (outcome.out.find('\n') == outcome.out.size() - 1)
@@ -236,10 +237,10 @@ private:
   Board board_;
   std::vector<Outcome> outcomes_;
   std::vector<bool> over_ble_;
-  std::mutex mutex_; ///< for what follows
+  std::mutex mutex_; ///< guards the members below
   std::vector<bool> begun_;
   int ble_links_ = 0;
-  std::condition_variable freed_; ///< one of them
+  std::condition_variable freed_; ///< signals a free link
   std::exception_ptr broken_;
 };
 
@@ -312,7 +313,7 @@ ExitCode exit_of(const std::vector<Outcome>& outcomes) {
                                                                             : ExitCode::Done;
 }
 
-/// That more robots are to be connected to at once than an adapter holds.
+/// Notes that the adapter cannot connect to all robots at once.
 void say_who_waits(const Context& context, const Roster& roster, std::size_t jobs) {
   const auto over = over_ble(roster);
   const auto robots = static_cast<std::size_t>(std::count(over.begin(), over.end(), true));
@@ -363,14 +364,14 @@ Failure listens_to_one() {
                            "for one of them"};
 }
 
-PortOptions port_of(PortOptions options, const Member& robot, const Row* row) {
+PortOptions port_of(PortOptions options, const RosterMember& robot, const Row* row) {
   options.port = robot.port;
   if (row != nullptr)
     options.record = file_of(options.record, robot);
   return options;
 }
 
-std::string file_of(const std::string& file, const Member& robot) {
+std::string file_of(const std::string& file, const RosterMember& robot) {
   if (file.empty())
     return file;
   auto name = robot.name;

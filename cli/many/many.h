@@ -13,56 +13,57 @@
 
 namespace orb::cli {
 
-/// The default of `--jobs` in words, where it is spec::ble_links_every.
+/// The default of `--jobs` in words, if it is spec::ble_links_every.
 std::string links_at_once();
 
 inline constexpr int all_at_once = 0;
 
-/// What is tried again where a robot could not be worked with.
+/// What to retry after a failure.
 enum class TryAgain : std::uint8_t {
-  Unreached, ///< only where it was not reached: what was sent must not be sent twice
-  Lost       ///< also where the link was lost, or the outcome is not known
+  Unreached, ///< only an unreachable robot: nothing may be sent twice
+  Lost       ///< also a lost link, or an unknown outcome
 };
 
-/// What a command prints on stdout for a robot.
+/// What a command prints to stdout for a robot.
 enum class Prints : std::uint8_t {
-  Lines, ///< as they come, each with the robot's name
-  Answer ///< one answer at the end, which is the robot's verdict
+  Lines, ///< lines as they come, with the robot's name
+  Answer ///< one answer at the end, which is the verdict
 };
 
 /// How a command works with several robots.
 struct ManyOptions {
   std::string_view command; ///< for JSON
-  int jobs = all_at_once;   ///< how many at a time, where the user does not say it
+  int jobs = all_at_once;   ///< default of how many at a time
   TryAgain again = TryAgain::Unreached;
   Prints prints = Prints::Lines;
-  bool json = false;    ///< one document for all (docs/json.md) in place of the table
-  bool one_too = false; ///< also where there is one robot: it has the same document
-  /// Asked once before any is reached: what would be wrong with each.
+  bool json = false; ///< prints one document for all (docs/reference/json.md) in place of the table
+  bool one_too = false; ///< also for a single robot: same document
+  /// Checks once, before connecting, what would be wrong for every robot.
   std::function<tl::expected<void, Failure>()> check;
-  /// Why the command is not for this robot: `keeps no programs; …`. Asked before any is reached.
-  std::function<std::optional<std::string>(const Member&)> misfit;
+  /// Why the command does not suit this robot: `keeps no programs; …`. Asked before connecting.
+  std::function<std::optional<std::string>(const RosterMember&)> misfit;
 };
 
-/// Why `--monitor` does not go with several robots.
+/// Explains why `--monitor` takes a single robot.
 Failure listens_to_one();
 
-/// What is done with one robot. `row` is null where it is the only one.
-using Work = std::function<void(Context& context, const Member& robot, Row* row)>;
+/// The work with one robot. `row` is null if it is the only one.
+using Work = std::function<void(Context& context, const RosterMember& robot, Row* row)>;
 
-/// Does `work` with each robot that the options name: with a single one as if there were no others,
-/// else with some at a time, each on a thread of its own with a context of its own, and tells what
-/// became of all in a table or in JSON. Over Bluetooth LE never more than spec::ble_links_most at a
-/// time: the others wait, which is said. The failure of one changes nothing for the others; the
-/// code in the context is then 5. Ctrl-C ends each as it ends a single one, and begins no more.
+/// Does `work` with each robot that the options name. A single robot is handled as if there were no
+/// others. Several are handled a few at a time, each on its own thread with its own context; a
+/// table or JSON shows the results. At most spec::ble_links_most robots are connected over
+/// Bluetooth LE at a time; a note says that the others wait. A failure does not affect the other
+/// robots; the exit code is then 5. Ctrl-C ends each as it would end a single one, and starts no
+/// more.
 void with_robots(Context& context, const RosterOptions& roster, const ManyOptions& options,
                  const Work& work);
 
-/// The options for the link to one robot. One of several has a recording of its own.
-PortOptions port_of(PortOptions options, const Member& robot, const Row* row);
+/// The link options for one robot. Each of several robots gets its own recording.
+PortOptions port_of(PortOptions options, const RosterMember& robot, const Row* row);
 
-/// The name of a robot's own file where several would write one: `wire.txt` is `wire-red.txt`. An
-/// empty name stays.
-std::string file_of(const std::string& file, const Member& robot);
+/// The file name for one of several robots: `wire.txt` becomes `wire-red.txt`. An empty name stays
+/// empty.
+std::string file_of(const std::string& file, const RosterMember& robot);
 
 } // namespace orb::cli

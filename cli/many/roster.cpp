@@ -36,12 +36,12 @@ void add_rest(const Command& command, RosterOptions& options, const std::string&
       .show_default();
 }
 
-/// Collects the robots that the words of the command line name.
+/// Collects the robots named on the command line.
 class Naming {
 public:
   explicit Naming(Roster& roster) : roster_(roster) {}
 
-  /// `@red`, `@front` or a URL. `place` is where a file says it, empty for the command line.
+  /// Adds `@red`, `@front` or a URL. `place` is its place in a file, empty for the command line.
   tl::expected<void, Failure> add(const std::string& port, const std::string& place) {
     if (!port.starts_with("@"))
       return add_member({port, port, "", {}});
@@ -84,7 +84,7 @@ private:
     return {};
   }
 
-  tl::expected<void, Failure> add_member(Member member) {
+  tl::expected<void, Failure> add_member(RosterMember member) {
     const auto endpoint = find_endpoint(roster_.config, member.port);
     if (!endpoint)
       return refuse(ExitCode::Usage, member.place + endpoint.error().message);
@@ -103,11 +103,11 @@ private:
     return {};
   }
 
-  /// Each `sim:` is a ball of its own.
-  tl::expected<void, Failure> add_virtual(Member member) {
+  /// Each `sim:` is a separate ball.
+  tl::expected<void, Failure> add_virtual(RosterMember member) {
     const auto taken = [&](const std::string& name) {
       return std::any_of(roster_.members.begin(), roster_.members.end(),
-                         [&](const Member& one) { return one.name == name; });
+                         [&](const RosterMember& one) { return one.name == name; });
     };
     if (member.port.starts_with("@") && taken(member.name))
       return refuse(ExitCode::Usage,
@@ -119,7 +119,7 @@ private:
     return {};
   }
 
-  /// Alike for two ways to write one place.
+  /// Normalises an endpoint, so that two spellings of one place compare equal.
   static std::string same_where(const uploader::Endpoint& endpoint) {
     using uploader::Scheme;
     std::error_code error;
@@ -140,10 +140,10 @@ private:
   }
 
   Roster& roster_;
-  std::map<std::string, std::string> known_; ///< the names of the robots by where they are
+  std::map<std::string, std::string> known_; ///< names of the robots by endpoint
 };
 
-/// The balls of a file in the order of its lines.
+/// The balls of a file in order of lines.
 std::vector<std::pair<std::string, const KnownBall*>> in_order(const Config& config) {
   std::vector<std::pair<std::string, const KnownBall*>> balls;
   for (const auto& [name, ball] : config.balls)
@@ -176,10 +176,11 @@ void add_roster_options(const Command& command, RosterOptions& options, const st
 void add_robot_roster_options(const Command& command, RosterOptions& options,
                               const std::string& jobs) {
   command
-      .add_option("-p,--port", options.ports,
-                  fmt::format("a robot that the program drives from here: {}, @ball or @group; "
-                              "repeat it for several robots",
-                              uploader::port_kinds))
+      .add_option(
+          "-p,--port", options.ports,
+          fmt::format("the robot that the program drives from this computer: {}, @ball or @group; "
+                      "repeat it for several robots",
+                      uploader::port_kinds))
       .one_value_each()
       .type_name("URL");
   add_rest(command, options, jobs);

@@ -13,39 +13,39 @@ namespace orb::cli {
 
 class Command;
 
-/// Which robots a command speaks to, as the command line says it.
+/// The robots that a command works with, as given on the command line.
 struct RosterOptions {
-  std::vector<std::string> ports; ///< empty for `sim:`, or all robots of `file`
-  std::string file;               ///< of more names; empty for none
-  int jobs = 0;                   ///< how many at a time; 0: as many as the command is made for
-  int tries = 3;                  ///< how often one is tried that cannot be reached
+  std::vector<std::string> ports; ///< empty for `sim:`, or for all robots of `file`
+  std::string file;               ///< file with more names; empty for none
+  int jobs = 0;                   ///< how many at a time; 0: the command's default
+  int tries = 3;                  ///< attempts to reach a robot
 };
 
-/// Adds `--port`, which may stand several times and which the environment may give as ORB_PORT,
-/// `--ports`, `--jobs` and `--tries`. `jobs` says what is the default of that.
+/// Adds `--port`, which is repeatable and also comes from ORB_PORT, `--ports`, `--jobs` and
+/// `--tries`. `jobs` describes the default of `--jobs`.
 void add_roster_options(const Command& command, RosterOptions& options, const std::string& jobs);
 
-/// The same where a robot is only one of the bodies that a program can have: without `--port` there
-/// is none, whatever the environment says.
+/// The same for commands that can do without a robot: only `--port` names one, the environment does
+/// not.
 void add_robot_roster_options(const Command& command, RosterOptions& options,
                               const std::string& jobs);
 
 /// One of the robots.
-struct Member {
+struct RosterMember {
   std::string name;                 ///< for people: `red`, or its port
   std::string port;                 ///< for PortOptions: `@red`, or a URL
-  std::string place;                ///< where a file names it, `FILE:LINE:COLUMN: `; else empty
-  std::optional<spec::Robot> robot; ///< where its name or the file tells
+  std::string place;                ///< its place in a file, `FILE:LINE:COLUMN: `; else empty
+  std::optional<spec::Robot> robot; ///< if the name or the file tells
 };
 
 struct Roster {
-  std::vector<Member> members; ///< in the order in which they are named
-  Config config;               ///< in which the names have their meaning
-  bool is_one = true;          ///< a single port on the command line: nothing is said of several
+  std::vector<RosterMember> members; ///< in the order given
+  Config config;                     ///< defines the names
+  bool is_one = true; ///< a single port on the command line: messages do not mention several
 };
 
-/// The robots that the options name. Refused at their lines: unknown names, a robot named twice,
-/// two names for one robot, an empty group.
+/// Finds the robots that the options name. Fails, with the line, for unknown names, robots named
+/// twice, two names for one robot, and empty groups.
 tl::expected<Roster, Failure> find_roster(const Context& context, const RosterOptions& options);
 
 } // namespace orb::cli

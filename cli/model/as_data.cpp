@@ -16,8 +16,8 @@ struct Kind {
   ValueKind kind;
 };
 
-// Arguments by their name in usage lines, options by their long name. What is not here is free
-// text unless it is checked by `one_of`.
+// Arguments by their name in usage lines, options by their long name. Anything else is free text
+// unless `one_of` checks it.
 constexpr Kind kinds[] = {
     {"FILE", ValueKind::File},         {"MACRO", ValueKind::File},
     {"SOURCE", ValueKind::File},       {"HEX", ValueKind::File},
@@ -36,7 +36,7 @@ constexpr Kind kinds[] = {
 };
 
 std::vector<std::string> words_of(const CLI::Option& option) {
-  // CLI11 has no way to list the checks of an option: its type name shows their descriptions.
+  // CLI11 cannot list the checks of an option, but its type name contains their descriptions.
   const auto shown = option.get_type_name();
   const auto open = shown.find('{');
   const auto close = shown.rfind('}');
@@ -61,7 +61,7 @@ ValueKind value_kind(const CLI::Option& option) {
   return ValueKind::Text;
 }
 
-/// The name of the value in usage lines.
+/// The placeholder of a value in usage lines.
 std::string placeholder(const CLI::Option& option, ValueKind kind) {
   if (option.get_positional())
     return option.get_name(true);

@@ -7,13 +7,14 @@
 
 namespace orb::cli {
 
-/// What the value of an option has to be.
+/// A constraint on the value of an option.
 struct Check {
-  std::function<std::string(const std::string&)> problem; ///< why it is not; empty where it is
-  std::string range;                                      ///< as help shows it; may be empty
+  /// returns what is wrong with a value; empty if nothing
+  std::function<std::string(const std::string&)> problem;
+  std::string range; ///< shown in help; may be empty
 };
 
-/// "; did you mean `…`?" for a word that is none of `names`, or nothing.
+/// "; did you mean `…`?" for a misspelt word, else an empty text.
 std::string meant_instead(const std::string& word, const std::vector<std::string>& names);
 
 /// The names of the rows of a table.
@@ -25,14 +26,14 @@ std::vector<std::string> names_of(const Rows& rows) {
   return names;
 }
 
-/// A check that a value is one of `words`. A misspelt value is answered with the word that was
-/// probably meant; help, completion and man pages list the words.
+/// Checks that a value is one of `words`. For a misspelt value it suggests the nearest word; help,
+/// completion and man pages list the words.
 Check one_of(std::vector<std::string> words);
 
-/// A check that a value is a whole number of that range, decimal or 0x hex; help lists the range.
+/// Checks for a whole number in the range, decimal or 0x hex; help shows the range.
 Check whole_number(std::uint64_t least, std::uint64_t greatest);
 
-/// A check that a value is a number of that range; not a number is in none.
+/// Checks for a number in the range; NaN is outside every range.
 Check number_between(double least, double greatest);
 
 } // namespace orb::cli

@@ -78,7 +78,7 @@ std::optional<std::string> Option::set_default(const std::vector<std::string>& v
     for (const auto& value : values)
       option_->add_result(value);
     option_->run_callback();
-    option_->clear(); // as if never given: a flag or the environment still replaces it
+    option_->clear(); // back to "not given": a flag or the environment still overrides it
   } catch (const CLI::Error& error) {
     return error.what();
   }
@@ -89,7 +89,7 @@ Command Command::add_command(const std::string& name, const std::string& summary
                              const std::string& examples) const {
   auto* command = app_->add_subcommand(name, summary);
   command->formatter(std::make_shared<HelpFormatter>(examples + "\n"));
-  command->fallthrough(); // -q, -v and --color may stand after the command
+  command->fallthrough(); // lets -q, -v and --color follow the command
   return Command(*command);
 }
 
@@ -140,7 +140,7 @@ void Command::callback(std::function<void()> run) const {
 }
 
 void Command::any_words() const {
-  app_->fallthrough(false)->prefix_command(); // else orb itself is asked what it makes of them
+  app_->fallthrough(false)->prefix_command(); // otherwise orb itself would interpret them
 }
 
 void Command::footer(const std::string& text) const {

@@ -12,13 +12,13 @@
 namespace orb::cli {
 namespace {
 
-/// The word that CLI11 could not place, when it looks like a command or an option.
+/// The word that CLI11 could not place, if it looks like a command or an option.
 std::string unknown_word(const CLI::App& app) {
   const auto words = app.remaining(true);
   return words.empty() ? std::string() : words.front();
 }
 
-/// The command that the command line names; null where it names none.
+/// The command on the command line; null if there is none.
 CLI::App* chosen_command(const CLI::App& app) {
   const auto chosen = app.get_subcommands();
   return chosen.empty() ? nullptr : chosen.front();
@@ -40,8 +40,8 @@ std::vector<std::string> command_names(CLI::App& app) {
   return names;
 }
 
-/// Why `word` has no place where it stands, and what was probably meant.
-std::string describe(CLI::App& app, const std::string& word) {
+/// Why `word` is not allowed in its place, and what was probably meant.
+std::string describe_word(CLI::App& app, const std::string& word) {
   const auto* command = chosen_command(app);
   const auto whom = command == nullptr ? std::string("orb") : "orb " + command->get_name();
   if (word.starts_with("-")) {
@@ -56,8 +56,8 @@ std::string describe(CLI::App& app, const std::string& word) {
   return fmt::format("`{}` is not an orb command{}", word, meant_instead(word, command_names(app)));
 }
 
-/// Moves each bare option whose value is optional after all others, where there is no file that it
-/// could take for its value: it takes one only as `--option=value`.
+/// Moves options with optional values behind the other words, unless a file could be taken for the
+/// value: they take one only as `--option=value`.
 void move_bare_options(const CLI::App& app, std::vector<std::string>& words) {
   const CLI::App* command = nullptr;
   auto first = words.end();
@@ -100,9 +100,9 @@ std::string HelpFormatter::make_description(const CLI::App* app) const {
 CommandLine::CommandLine(const std::string& name, const std::string& about,
                          const std::string& examples)
     : app_(std::make_unique<CLI::App>(about, name)) {
-  app_->allow_windows_style_options(false); // `/tmp/a.bas` is a path there, too
+  app_->allow_windows_style_options(false); // `/tmp/a.bas` is a path on Windows, too
   app_->formatter(std::make_shared<HelpFormatter>(examples));
-  app_->require_subcommand(0, 1); // a word after a command is never a second one: `orb man run`
+  app_->require_subcommand(0, 1); // a word after a command is never a second command: `orb man run`
 }
 
 CommandLine::~CommandLine() = default;
@@ -115,7 +115,7 @@ void CommandLine::add_help_and_version(std::function<std::string()> version,
 
 Parsed CommandLine::parse(std::vector<std::string> words) {
   move_bare_options(*app_, words);
-  std::reverse(words.begin(), words.end()); // CLI11 takes the last first
+  std::reverse(words.begin(), words.end()); // CLI11 expects the last word first
   const auto command = [&] {
     const auto* chosen = chosen_command(*app_);
     return chosen == nullptr ? std::string() : chosen->get_name();
@@ -125,10 +125,11 @@ Parsed CommandLine::parse(std::vector<std::string> words) {
   } catch (const CLI::Success& success) { // --help and --version
     std::ostringstream text;
     app_->exit(success, text, text);
-    return {Parsed::Kind::Told, text.str(), command()};
+    return {Parsed::Kind::Help, text.str(), command()};
   } catch (const CLI::ParseError& error) {
     const auto word = unknown_word(*app_);
-    return {Parsed::Kind::Misread, word.empty() ? error.what() : describe(*app_, word), command()};
+    return {Parsed::Kind::Misread, word.empty() ? error.what() : describe_word(*app_, word),
+            command()};
   }
   return {Parsed::Kind::Ran, {}, command()};
 }

@@ -10,18 +10,18 @@
 
 namespace orb::cli {
 
-/// What became of the words of a command line.
+/// The result of parsing a command line.
 struct Parsed {
   enum class Kind {
-    Ran,    ///< the command that they name
-    Told,   ///< `text` answers `--help` or `--version`
-    Misread ///< `text` says why they make no sense; nothing has run
+    Ran,    ///< the command ran
+    Help,   ///< `text` answers `--help` or `--version`
+    Misread ///< `text` says what is wrong; nothing ran
   } kind = Kind::Ran;
   std::string text;
-  std::string command; ///< the one that was named; may be empty
+  std::string command; ///< the chosen one; may be empty
 };
 
-/// The command line of orb: its commands with their options, and what reads it.
+/// The command line of orb: commands, options, and their parser.
 class CommandLine {
 public:
   CommandLine(const std::string& name, const std::string& about, const std::string& examples);
@@ -29,23 +29,23 @@ public:
   CommandLine(const CommandLine&) = delete;
   CommandLine& operator=(const CommandLine&) = delete;
 
-  /// The program itself, whose options stand before or after any command.
+  /// The program itself; its options may precede or follow any command.
   Command root() const { return Command(*app_); }
 
-  /// Adds `--version`, which prints what `version` returns, and `--help`.
+  /// Adds `--version`, which prints the result of `version`, and `--help`.
   void add_help_and_version(std::function<std::string()> version, const std::string& summary);
 
-  /// Reads words and runs the command that they name.
+  /// Parses words and runs the command.
   Parsed parse(std::vector<std::string> words);
 
-  /// Help as it is printed without words.
+  /// The help for orb without arguments.
   std::string help() const;
 
 private:
   std::unique_ptr<CLI::App> app_;
 };
 
-/// The command line as data, for the manual and completion.
+/// Returns the command line as data, for the manual and completion.
 reference::CommandLine as_data(const Command& root);
 
 } // namespace orb::cli

@@ -12,7 +12,7 @@
 namespace orb::cli {
 namespace {
 
-constexpr Duration patience = 6s; // for a robot to say what it is
+constexpr Duration introduction_time = 6s; // for a robot to identify itself
 
 tl::expected<spec::Robot, Failure> kind_of(const Link& link, const PortOptions& port,
                                            const std::string& name) {
@@ -22,15 +22,15 @@ tl::expected<spec::Robot, Failure> kind_of(const Link& link, const PortOptions& 
     return *link.named;
   if (link.packets == spec::Packets::V2)
     return run::find_newer_robot(*link.transport);
-  return run::find_robot(*link.transport, patience);
+  return run::find_robot(*link.transport, introduction_time);
 }
 
-/// The same port once more: the robot drives until it is told to stop, or stops by itself.
+/// Opens the port again: the robot drives until it is stopped or stops by itself.
 std::unique_ptr<protocol::Transport> open_again(const Context& context, const PortOptions& port,
                                                 DrivenRobot& robot) {
   constexpr auto pause = std::chrono::milliseconds{100};
   using Clock = std::chrono::steady_clock;
-  robot.link.stopper->close(); // a device has one user at a time
+  robot.link.stopper->close(); // a device has a single user at a time
   const int asked = InterruptGuard::asked();
   const auto until = Clock::now() + spec::v2_drive_timeout + robot.link.budgets.answer;
   do {
@@ -49,7 +49,7 @@ tl::expected<std::unique_ptr<DrivenRobot>, Failure>
 connect_robot(const Context& context, const PortOptions& given, const std::string& name) {
   auto port = given;
   if (!name.empty())
-    port.robot = spec::find_robot(name)->robot; // the options are checked
+    port.robot = spec::find_robot(name)->robot; // the options have been checked
   auto opened = open_link(context, port);
   if (!opened)
     return tl::unexpected(opened.error());
@@ -59,7 +59,7 @@ connect_robot(const Context& context, const PortOptions& given, const std::strin
   if (!kind)
     return tl::unexpected(kind.error());
   robot->tether.robot = *kind;
-  robot->tether.budgets.stale = *parse_duration(port.stale, 1s); // the options are checked
+  robot->tether.budgets.stale = *parse_duration(port.stale, 1s); // the options have been checked
   robot->tether.budgets.gone =
       std::max(robot->tether.budgets.gone, 2 * robot->tether.budgets.stale);
   robot->tether.budgets.collisions = {port.collision_threshold, port.collision_threshold};
@@ -75,7 +75,7 @@ tl::expected<std::shared_ptr<run::HeldRobot>, Failure>
 hold_robot(const Context& context, const PortOptions& port, const std::string& name) {
   struct Both {
     std::unique_ptr<DrivenRobot> robot;
-    std::unique_ptr<run::HeldRobot> held; // goes first: it still speaks to the robot
+    std::unique_ptr<run::HeldRobot> held; // destroyed first: it still talks to the robot
   };
   auto robot = connect_robot(context, port, name);
   if (!robot)

@@ -11,21 +11,20 @@
 
 namespace orb::cli {
 
-/// A robot at the other end of a link that programs drive.
+/// A robot that programs drive over a link.
 struct DrivenRobot {
   Link link;
-  run::TetherOptions tether;   ///< what it is, and how it is reached again
-  std::unique_ptr<Link> again; ///< the link that came after the first was lost
+  run::TetherOptions tether;   ///< identifies the robot, and reconnects
+  std::unique_ptr<Link> again; ///< the replacement of a lost link
 };
 
-/// Opens the link that `port` names. `name` says which robot answers there; where it is empty, the
-/// name in the port tells, or the robot itself is asked. A link that is lost is opened again as
-/// soon as that works, within the time that the robot needs to stop by itself and that for one
-/// answer.
+/// Opens the link that `port` names. `name` says which robot it is; if empty, the port's name or
+/// the robot itself tells. Reopens a lost link as soon as possible, within the time after which the
+/// robot stops by itself plus the time of one answer.
 tl::expected<std::unique_ptr<DrivenRobot>, Failure>
 connect_robot(const Context& context, const PortOptions& port, const std::string& name);
 
-/// The same, readied for a debugger.
+/// The same, prepared for a debugger.
 tl::expected<std::shared_ptr<run::HeldRobot>, Failure>
 hold_robot(const Context& context, const PortOptions& port, const std::string& name);
 

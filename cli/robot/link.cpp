@@ -12,7 +12,7 @@
 #include "uploader/device_words.h"
 #include "uploader/endpoint.h"
 #include "vm/ball_transport.h"
-#include "vm/bluetooth.h"
+#include "vm/common/bluetooth.h"
 
 #include <fmt/format.h>
 #include <random>
@@ -24,7 +24,7 @@ namespace {
 using uploader::Endpoint;
 using uploader::Scheme;
 
-/// Fixed for `sim:`, so that runs repeat; drawn for anything that may remember an earlier session.
+/// Fixed for `sim:`, so that runs repeat; random if the other end may remember an earlier session.
 constexpr std::uint8_t sim_first_seq = 0;
 
 tl::unexpected<Failure> failure(ExitCode exit, std::string message) {
@@ -80,7 +80,7 @@ void add_robot_port_options(const Command& command, PortOptions& options, std::s
   options.port.clear();
   command
       .add_option("-p,--port", options.port,
-                  fmt::format("a robot that the program drives from here: {} or @ball",
+                  fmt::format("the robot that the program drives from this computer: {} or @ball",
                               uploader::port_kinds))
       .type_name("URL");
   add_robot_options(command, options, robot);
@@ -94,7 +94,7 @@ void add_robot_options(const Command& command, PortOptions& options, std::string
       .check(one_of(names_of(spec::robots)));
   command
       .add_option("--stale", options.stale,
-                  "how long without sensor data until a robot that is driven is stopped")
+                  "stop a driven robot after this long without sensor data")
       .type_name("TIME")
       .check(is_time)
       .show_default();
@@ -155,7 +155,7 @@ tl::expected<Endpoint, Failure> find_endpoint(const Config& config, const std::s
 
 namespace {
 
-/// The robot that advertises such a name; nothing where several kinds do, or none.
+/// The robot that advertises such a name; nothing if several models do, or none.
 std::optional<spec::Robot> robot_called(std::string_view name) {
   const auto* known = spec::find_ble_name(name);
   for (const auto& row : spec::robots)
@@ -189,7 +189,7 @@ uploader::Budgets budgets_for(const Endpoint& endpoint, const PortOptions& optio
   return uploader::ble_budgets(budgets);
 }
 
-/// Bluetooth delivers each packet once; what is behind other links, a relay perhaps, nobody knows.
+/// Bluetooth delivers each packet once; other links, such as a relay, may not.
 bool may_double(const Endpoint& endpoint) {
   switch (endpoint.scheme) {
   case Scheme::Serial: return !std::string_view(endpoint.path).starts_with("/dev/rfcomm");
@@ -232,7 +232,7 @@ void open_sim(Link& link, spec::Robot robot, const spec::Driving& driving) {
   link.transport = std::make_unique<vm::BallTransport>(*link.ball, *link.robot);
 }
 
-/// Which packets were sent, where they were of one kind.
+/// The kind of packets sent; nothing if they are mixed.
 std::optional<spec::Packets> recorded_packets(const std::vector<protocol::RecordedPiece>& pieces) {
   bool classic = false;
   bool newer = false;
@@ -244,7 +244,7 @@ std::optional<spec::Packets> recorded_packets(const std::vector<protocol::Record
   return newer ? spec::Packets::V2 : spec::Packets::V1;
 }
 
-/// Plays a recording; the session must begin with the sequence number that was recorded.
+/// Opens a recording for playback; the session has to start with the recorded sequence number.
 tl::expected<void, Failure> open_replay(Link& link, const std::string& path) {
   const auto text = disk::read(path);
   if (!text)
@@ -290,7 +290,7 @@ tl::expected<Link, Failure> open_link(const Context& context, const PortOptions&
   if (const auto why = uploader::undriven(endpoint->name))
     return failure(ExitCode::Refused, fmt::format("cannot open {}: {}; `orb ports` lists robots",
                                                   endpoint->text, *why));
-  // Nothing may be done to a ball whose recording then cannot be written.
+  // Create the recording first: no commands without it.
   std::optional<disk::Draft> recording;
   if (!options.record.empty()) {
     auto draft = disk::Draft::of(options.record);
@@ -305,7 +305,7 @@ tl::expected<Link, Failure> open_link(const Context& context, const PortOptions&
   link.may_double = may_double(*endpoint);
   link.is_uart = endpoint->scheme == Scheme::Serial && link.may_double;
   if (!link.may_double)
-    link.packets = spec::Packets::V1; // classic Bluetooth; the others know better below
+    link.packets = spec::Packets::V1; // classic Bluetooth; the other kinds correct this below
   link.named = named_robot(context.config, options.port);
   link.budgets = budgets_for(*endpoint, options);
   tl::expected<void, Failure> opened;

@@ -28,7 +28,7 @@ std::string titles(const std::vector<spec::Robot>& robots) {
   return text;
 }
 
-/// Whether one kind of packets suits all of them.
+/// True if all of them use the same kind of packets.
 bool alike(const std::vector<spec::Robot>& robots) {
   const auto& first = spec::info(robots.front());
   return std::all_of(robots.begin(), robots.end(), [&](spec::Robot robot) {
@@ -37,7 +37,7 @@ bool alike(const std::vector<spec::Robot>& robots) {
   });
 }
 
-/// The robots that the one at the other end can be; none where nothing answers.
+/// The robots that the other end can be; none if nothing answers.
 std::vector<spec::Robot> who_is_there(Link& link) {
   constexpr Duration patience = 2s;
   if (link.named)

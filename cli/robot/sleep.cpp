@@ -17,7 +17,7 @@ tl::expected<void, std::string> tell_newer(protocol::Transport& transport,
   return {};
 }
 
-/// Without a time, a macro or a line to wake up for.
+/// Sends sleep without a wake-up time, macro or line.
 tl::expected<void, std::string> tell_classic(protocol::Transport& transport, const Link& link) {
   constexpr std::size_t operands = 5;
   uploader::Session session(transport, link.budgets, link.first_seq);
@@ -30,7 +30,7 @@ tl::expected<void, std::string> tell_classic(protocol::Transport& transport, con
 } // namespace
 
 void add_sleep_option(const Command& command, bool& sleeps) {
-  command.add_flag("--sleep", sleeps, "puts the robot to sleep at the end");
+  command.add_flag("--sleep", sleeps, "put the robot to sleep at the end");
 }
 
 Slept put_to_sleep(protocol::Transport& transport, spec::Robot robot, const Link& link) {

@@ -10,16 +10,16 @@ namespace orb::cli {
 /// Adds `--sleep`.
 void add_sleep_option(const Command& command, bool& sleeps);
 
-/// What became of it, in a sentence for the end of a command.
+/// The result, as a sentence for the end of a command.
 struct Slept {
   ExitCode exit = ExitCode::Done;
   std::string words;
 };
 
-/// Puts the robot to sleep, until it is woken: whether it has acknowledged that.
+/// Puts the robot to sleep until something wakes it; tells if it acknowledged.
 Slept put_to_sleep(protocol::Transport& transport, spec::Robot robot, const Link& link);
 
-/// That nothing was sent, because the link had been lost before.
+/// The result if the link was lost before: nothing was sent.
 Slept left_awake();
 
 } // namespace orb::cli

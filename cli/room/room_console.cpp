@@ -16,7 +16,7 @@ bool has_places(const run::RoomBall& ball) {
 
 } // namespace
 
-/// Hears one ball.
+/// Listens to one ball.
 class RoomConsole::Ear final : public run::Listener {
 public:
   Ear(RoomConsole& console, const run::RoomBall& ball, std::size_t rank, bool sources)
@@ -43,7 +43,7 @@ public:
       trace_->add(t, fault);
   }
   void on_time(Duration) override {
-    if (rank_ + 1 == console_.ears_.size()) // by then the others have heard it, too
+    if (rank_ + 1 == console_.ears_.size()) // the last in order: the others have reported already
       console_.flush();
   }
   void finish(const run::Ending& ending) {
@@ -67,7 +67,7 @@ private:
   std::size_t rank_;
   std::optional<run::Trace> trace_;
   Duration t_{};
-  std::string line_; ///< printed and not ended yet
+  std::string line_; ///< printed text without its line end yet
 };
 
 RoomConsole::RoomConsole(const RunOptions& options, std::vector<const run::RoomBall*> balls)
@@ -104,19 +104,20 @@ void RoomConsole::tell(Duration t, std::size_t rank, std::string text, bool trac
 }
 
 void RoomConsole::flush() {
-  std::stable_sort(waiting_.begin(), waiting_.end(), [](const Told& a, const Told& b) {
-    return std::pair(a.t, a.rank) < std::pair(b.t, b.rank);
-  });
-  for (const auto& told : waiting_)
-    put(told);
+  std::stable_sort(waiting_.begin(), waiting_.end(),
+                   [](const PendingLine& a, const PendingLine& b) {
+                     return std::pair(a.t, a.rank) < std::pair(b.t, b.rank);
+                   });
+  for (const auto& line : waiting_)
+    put(line);
   waiting_.clear();
 }
 
-void RoomConsole::put(const Told& told) {
-  if (told.traced && !options_.trace_out.empty())
-    text_ += told.text;
+void RoomConsole::put(const PendingLine& line) {
+  if (line.traced && !options_.trace_out.empty())
+    text_ += line.text;
   else
-    print_out(told.text);
+    print_out(line.text);
 }
 
 } // namespace orb::cli

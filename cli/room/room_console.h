@@ -14,37 +14,37 @@
 
 namespace orb::cli {
 
-/// Prints what the programs of a room print, each line with the name of its ball, or one trace of
-/// all of them: in the order of time, and what happens at one time in the order of names.
+/// Prints the output of a room's programs with the ball's name before each line, or one trace of
+/// all of them, ordered by time and then by name.
 class RoomConsole {
 public:
   RoomConsole(const RunOptions& options, std::vector<const run::RoomBall*> balls);
   ~RoomConsole();
 
-  /// The listener of a ball, by its place among the balls.
+  /// The listener of a ball, by its index.
   run::Listener& ear(std::size_t ball);
 
-  /// The endings belong to the balls, in their order.
+  /// `endings` are in the order of the balls.
   tl::expected<void, IoError> finish(const std::vector<run::Ending>& endings);
 
 private:
   class Ear;
-  struct Told {
+  struct PendingLine {
     Duration t;
-    std::size_t rank = 0; ///< of the ball, by name
+    std::size_t rank = 0; ///< position of the ball by name
     std::string text;
     bool traced = false;
   };
   void tell(Duration t, std::size_t rank, std::string text, bool traced);
   void flush();
-  void put(const Told& told);
+  void put(const PendingLine& line);
 
   const RunOptions& options_;
   std::optional<report::TraceFormat> format_;
   bool prints_;
   std::vector<std::unique_ptr<Ear>> ears_;
-  std::vector<Told> waiting_; ///< until all balls have come as far
-  std::string text_;          ///< of a trace that goes to a file
+  std::vector<PendingLine> waiting_; ///< until all balls have reached that time
+  std::string text_;                 ///< of a trace that goes to a file
 };
 
 } // namespace orb::cli

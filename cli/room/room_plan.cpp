@@ -17,7 +17,7 @@
 #include <fmt/ranges.h>
 #include <map>
 
-// Exceptions would be the other way to hear of a text that is no TOML.
+// Makes invalid TOML a result, not an exception.
 #define TOML_EXCEPTIONS 0
 #include <toml++/toml.h>
 
@@ -26,14 +26,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double spacing_cm = 30; ///< between balls that nobody has placed
+constexpr double spacing_cm = 30; ///< between balls without a given place
 constexpr double farthest_cm = 1e6;
 
-std::string place_in(const std::string& file, const toml::source_region& region) {
+std::string region_in(const std::string& file, const toml::source_region& region) {
   return fmt::format("{}:{}:{}", file, region.begin.line, region.begin.column);
 }
 
-/// Reads what a table says and remembers the first thing that is wrong.
+/// Reads a table and remembers its first error.
 class Reading {
 public:
   explicit Reading(const std::string& file) : file_(file) {}
@@ -42,7 +42,7 @@ public:
   void refuse(const toml::node& node, std::string_view what) { refuse_at(node.source(), what); }
   void refuse_at(const toml::source_region& region, std::string_view what) {
     if (problem_.empty())
-      problem_ = fmt::format("{}: {}", place_in(file_, region), what);
+      problem_ = fmt::format("{}: {}", region_in(file_, region), what);
   }
 
   std::string text(std::string_view key, const toml::node& node) {
@@ -51,7 +51,7 @@ public:
     refuse(node, fmt::format("`{}` takes a string in quotes", key));
     return {};
   }
-  /// A text or a list of them.
+  /// Reads a text or a list of texts.
   std::vector<std::string> texts(std::string_view key, const toml::node& node) {
     const auto* list = node.as_array();
     if (list == nullptr)
@@ -63,7 +63,7 @@ public:
       refuse(node, fmt::format("`{}` takes a string in quotes, or a list of them", key));
     return all;
   }
-  /// A number of centimetres or degrees.
+  /// Reads a number of centimetres or degrees.
   double number(std::string_view key, const toml::node& node) {
     const auto value = node.value<double>();
     if (value && !node.is_boolean() && std::abs(*value) <= farthest_cm)
@@ -111,7 +111,7 @@ std::string unknown(std::string_view key, const Keys& keys, std::string_view of)
       did_you_mean(key, words, fmt::format("the keys are {}", fmt::join(keys, ", "))));
 }
 
-/// A path counts from the folder of the room's file.
+/// Resolves a path relative to the room's file.
 std::string beside(const std::string& file, const std::string& path) {
   return disk::as_path(path).is_absolute()
              ? path
@@ -124,7 +124,7 @@ std::string stem(const std::string& path) {
 
 PlannedBall read_ball(Reading& reading, const std::string& file, const toml::table& table) {
   PlannedBall ball;
-  ball.place = place_in(file, table.source());
+  ball.place = region_in(file, table.source());
   for (const auto& [key, node] : table) {
     if (key == "name")
       ball.name = reading.text(key.str(), node);
@@ -152,7 +152,7 @@ PlannedBall read_ball(Reading& reading, const std::string& file, const toml::tab
   return ball;
 }
 
-/// That two balls have one name; empty where none have.
+/// Reports two balls with the same name; empty if names are unique.
 std::string same_name(const std::vector<PlannedBall>& balls) {
   std::map<std::string_view, const PlannedBall*> known;
   for (const auto& ball : balls)
@@ -160,7 +160,7 @@ std::string same_name(const std::vector<PlannedBall>& balls) {
       return ball.place.empty()
                  ? fmt::format(
                        "{} and {} would both be named `{}`; give them names in a room file; "
-                       "see docs/rooms.md",
+                       "see docs/using/rooms.md",
                        at->second->files.front(), ball.files.front(), ball.name)
                  : fmt::format(
                        "{}: the ball at {} is also called `{}`; give one of them another `name`",
@@ -182,7 +182,7 @@ tl::expected<RoomPlan, Failure> read_room(const std::string& path) {
   const auto parsed = toml::parse(*text, file);
   if (!parsed)
     return refuse(ExitCode::Usage,
-                  fmt::format("{}: not TOML: {}", place_in(file, parsed.error().source()),
+                  fmt::format("{}: not TOML: {}", region_in(file, parsed.error().source()),
                               toml_words(parsed.error().description())));
   RoomPlan plan;
   Reading reading(file);

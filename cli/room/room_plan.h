@@ -10,19 +10,19 @@
 #include <tl/expected.hpp>
 #include <vector>
 
-// Who is in a room, where: a file such as room.toml, or a list of programs.
+// The balls of a room and their places, from a file such as room.toml or from a list of programs.
 
 namespace orb::cli {
 
-/// A ball of a room as its user writes it.
+/// A ball of a room as the user describes it.
 struct PlannedBall {
   std::string name;
-  std::vector<std::string> files; ///< the first one runs; paths as from the working directory
+  std::vector<std::string> files; ///< the first one runs; relative to the working directory
   vm::Placement start;
   std::optional<std::uint64_t> seed;
-  std::string robot;                ///< whose way of driving it has; empty for that of all
-  std::vector<std::string> stimuli; ///< scripts or lines, for this ball alone
-  std::string place;                ///< where it is written, `room.toml:4:1`; empty for a list
+  std::string robot;                ///< model that it drives like; empty for the common one
+  std::vector<std::string> stimuli; ///< scripts or lines for this ball only
+  std::string place;                ///< its place in the file, `room.toml:4:1`; empty for a list
 };
 
 struct RoomPlan {
@@ -30,14 +30,14 @@ struct RoomPlan {
   std::vector<PlannedBall> balls;
 };
 
-/// Whether a file of that name is taken for a room.
+/// True if the name is that of a room file.
 bool is_room_file(std::string_view name);
 
-/// Reads a room. What is wrong with it is told with its place.
+/// Reads a room. Errors include their place.
 tl::expected<RoomPlan, Failure> read_room(const std::string& path);
 
-/// A ball for each program, named after its file. They stand side by side, in the order of their
-/// names, and all face ahead. Two files of one name are refused.
+/// Makes a ball for each program, named after its file. They are placed side by side in order of
+/// name and face ahead. Fails for two files with the same name.
 tl::expected<RoomPlan, Failure> side_by_side(const std::vector<std::string>& files);
 
 } // namespace orb::cli

@@ -11,7 +11,7 @@
 #include "report/reload.h"
 #include "report/svg.h"
 #include "run/room.h"
-#include "structured/text/words.h"
+#include "structured/text/structured_words.h"
 
 #include <algorithm>
 #include <array>
@@ -24,7 +24,7 @@
 namespace orb::cli {
 namespace {
 
-/// What one ball alone can be asked, and a room cannot.
+/// Rejects options that a room does not support.
 tl::expected<void, Failure> check_options(const RunOptions& given) {
   struct Given {
     bool is = false;
@@ -46,7 +46,7 @@ tl::expected<void, Failure> check_options(const RunOptions& given) {
   return {};
 }
 
-/// A room with all that its balls refer to.
+/// A room with everything its balls refer to.
 struct Furnished {
   RoomPlan plan;
   std::optional<report::Course> course;
@@ -69,13 +69,13 @@ tl::expected<RoomPlan, Failure> plan_of(const RunOptions& given) {
   return plan;
 }
 
-/// The options of one ball: those of all, and its own.
+/// The options of one ball: the common ones plus its own.
 tl::expected<run::Options, Failure> options_of(const Context& context, const run::Options& all,
                                                const PlannedBall& ball) {
   auto options = all;
   options.start = ball.start;
   options.seed = ball.seed.value_or(run::seed_of(all.seed, ball.name));
-  if (!ball.robot.empty()) { // its own goes before `--robot` and `--ball` of all
+  if (!ball.robot.empty()) { // overrides the common `--robot` and `--ball`
     options.model = spec::find_robot(ball.robot)->robot;
     options.driving.reset();
   }
@@ -109,7 +109,7 @@ tl::expected<void, Failure> furnish(const Context& context, const RunOptions& gi
   return {};
 }
 
-/// The first ball that starts where it cannot be.
+/// Reports the first ball that starts in an impossible place.
 tl::expected<void, Failure> check_places(const Furnished& room) {
   const auto found = run::clashes(room.balls);
   if (found.empty())
@@ -119,7 +119,7 @@ tl::expected<void, Failure> check_places(const Furnished& room) {
   const auto what =
       clash.other ? fmt::format("starts inside ball `{}`", room.balls[*clash.other].name)
                   : fmt::format("starts too close to the wall {}", vm::to_string(*clash.wall));
-  constexpr double digits = 10; // of a centimetre
+  constexpr double digits = 10; // tenths of a centimetre
   return refuse(ExitCode::Usage,
                 fmt::format("{}{}ball `{}` {}: {:g} cm from it; at least {:g} cm is needed",
                             ball.place, ball.place.empty() ? "" : ": ", ball.name, what,
@@ -135,7 +135,7 @@ void tell(const Context& context, const run::RoomBall& ball, const run::Ending& 
                                   run::to_string(ending)));
 }
 
-/// The balls by name, as a picture has them.
+/// The balls by name, for a picture.
 std::vector<report::RoomRun> runs_of(const Furnished& room) {
   std::vector<report::RoomRun> runs;
   for (const auto& ball : room.balls)
@@ -144,7 +144,7 @@ std::vector<report::RoomRun> runs_of(const Furnished& room) {
   return runs;
 }
 
-tl::expected<void, IoError> write_pictures(const RunOptions& given, const Furnished& room) {
+tl::expected<void, IoError> write_room_pictures(const RunOptions& given, const Furnished& room) {
   const auto runs = runs_of(room);
   const auto title = is_room_file(given.files.front()) ? disk::display_name(given.files.front())
                                                        : std::string("room");
@@ -159,9 +159,9 @@ tl::expected<void, IoError> write_pictures(const RunOptions& given, const Furnis
                            : disk::write(given.svg, as_bytes(report::room_svg(runs)));
 }
 
-/// How the room ended by what its balls printed, where the user looked for something.
-tl::expected<void, Failure> judge(const RunOptions& given, const Furnished& room,
-                                  const std::vector<run::Ending>& endings) {
+/// Judges the room by the balls' output, if the user asked for that.
+tl::expected<void, Failure> judge_room(const RunOptions& given, const Furnished& room,
+                                       const std::vector<run::Ending>& endings) {
   bool expected = false;
   for (std::size_t i = 0; i < endings.size(); ++i) {
     expected = expected || endings[i].seen == run::Sought::Expected;
@@ -178,7 +178,7 @@ tl::expected<void, Failure> judge(const RunOptions& given, const Furnished& room
   return {};
 }
 
-/// Reads everything; what is wrong is told before anything runs.
+/// Reads everything; reports errors before anything runs.
 tl::expected<void, Failure> prepare(const Context& context, const RunOptions& given,
                                     Furnished& room) {
   if (auto fits = check_options(given); !fits)
@@ -231,12 +231,12 @@ tl::expected<void, Failure> run_together(Context& context, const RunOptions& giv
     return tl::unexpected(endings.error());
   auto written = console.finish(*endings);
   if (written && pictures)
-    written = write_pictures(given, room);
+    written = write_room_pictures(given, room);
   for (std::size_t i = 0; i < room.balls.size(); ++i)
     tell(context, room.balls[i], (*endings)[i]);
   if (!written)
     print_error(context, written.error().message);
-  if (auto good = judge(given, room, *endings); !good)
+  if (auto good = judge_room(given, room, *endings); !good)
     return good;
   const bool faults = std::any_of(endings->begin(), endings->end(),
                                   [](const auto& ending) { return !ending.faults.empty(); });
@@ -274,7 +274,7 @@ tl::expected<void, Failure> check_room(const Context& context, const std::string
   given.files = {file};
   given.port.port.clear();
   Furnished room;
-  const OutputTap silence([](auto, auto) {}); // what is to be said of its files has been said
+  const OutputTap silence([](auto, auto) {}); // findings about its files have been printed
   return prepare(context, given, room);
 }
 

@@ -7,17 +7,18 @@
 
 namespace orb::cli {
 
-/// Whether the command line asks for a room: several balls in one world. One program alone is none.
+/// True if the command line asks for a room: several balls in one world. A single program is not a
+/// room.
 bool is_room(const RunOptions& given);
 
-/// The files that rooms among `files` speak of, each once, in place of them: programs and courses.
-/// What is wrong with a room is told at its line.
+/// Replaces rooms in `files` with the programs and courses that they name, each once. Errors in a
+/// room are reported with their line.
 tl::expected<std::vector<std::string>, Failure> open_rooms(const std::vector<std::string>& files);
 
-/// Whether all balls of a room whose programs are without errors can stand where they start.
+/// Checks that all balls of a room can be where they start; its programs must be free of errors.
 tl::expected<void, Failure> check_room(const Context& context, const std::string& file);
 
-/// Runs all its balls and tells how each one ended.
+/// Runs all balls and reports how each one ended.
 tl::expected<void, Failure> run_together(Context& context, const RunOptions& given);
 
 } // namespace orb::cli

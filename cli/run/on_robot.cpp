@@ -16,7 +16,7 @@
 namespace orb::cli {
 namespace {
 
-/// What the program says and this robot does not have, each word once.
+/// Lists words in the program that this robot does not support, each once.
 void hint_at_lacks(const Context& context, const std::vector<run::Input>& inputs,
                    spec::Robot robot) {
   std::set<std::string> said;
@@ -31,7 +31,7 @@ bool is_number(const vm::TimedStimulus& event) {
   return std::holds_alternative<vm::stimulus::Number>(event.stimulus);
 }
 
-/// What the world does to a virtual robot; numbers are for the program, which runs here.
+/// The stimuli for a virtual robot, without inputs: those go to the program, which runs here.
 std::vector<vm::TimedStimulus> world_of(const run::Options& options) {
   auto events =
       options.course != nullptr ? options.course->stimuli() : std::vector<vm::TimedStimulus>();
@@ -76,7 +76,7 @@ tl::expected<OnRobot, Failure> run_on_robot(const Context& context, const RunOpt
                                             const std::vector<run::Input>& inputs, Console& console,
                                             report::Journey* journey) {
   std::optional<disk::Draft> record;
-  if (!given.record.empty()) { // what cannot be written is told before anything moves
+  if (!given.record.empty()) { // report unwritable files before anything moves
     auto draft = disk::Draft::of(given.record);
     if (!draft)
       return tl::unexpected(Failure{ExitCode::File, draft.error().message});
@@ -103,7 +103,7 @@ tl::expected<OnRobot, Failure> run_on_robot(const Context& context, const RunOpt
   console.outlive_output([&robot] { robot.link.stopper->interrupt(); });
   auto driven =
       run::run_tethered(inputs, options, console, journey, *robot.link.transport, robot.tether);
-  console.outlive_output([] {}); // what is left to say is said without the robot
+  console.outlive_output([] {}); // print the rest without the robot
   if (!driven)
     return tl::unexpected(name_robot(robot.link, given.robot, driven.error()));
   if (driven->failure)

@@ -13,14 +13,14 @@
 
 namespace orb::cli {
 
-/// Whether the robot that the options name is `sim:`, which has a world.
+/// True if the options name `sim:`, which has a simulated world.
 bool drives_virtual(const Context& context, const RunOptions& given);
 
-/// Why the command line does not go with a robot: what only a simulation can do.
+/// Rejects options that only a simulation supports.
 tl::expected<void, Failure> check_for_robot(const Context& context, const RunOptions& given,
                                             const run::Options& options);
 
-/// A run on a robot, and what became of `--sleep`.
+/// A run on a robot, and the result of `--sleep`.
 struct OnRobot {
   run::TetheredEnding driven;
   std::optional<Slept> slept{};
@@ -32,12 +32,12 @@ tl::expected<OnRobot, Failure> run_on_robot(const Context& context, const RunOpt
                                             const std::vector<run::Input>& inputs, Console& console,
                                             report::Journey* journey);
 
-/// Runs the program with the recording `given.replay` in place of a robot.
+/// Runs the program with the recording `given.replay` as its robot.
 tl::expected<OnRobot, Failure> replay_drive(const RunOptions& given, const run::Options& options,
                                             const std::vector<run::Input>& inputs, Console& console,
                                             report::Journey* journey);
 
-/// What became of the stop at the end, for people.
+/// The result of stopping the robot at the end, for people.
 std::string_view stop_note(const run::Ending& ending);
 
 } // namespace orb::cli

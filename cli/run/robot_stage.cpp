@@ -11,7 +11,7 @@
 namespace orb::cli {
 namespace {
 
-/// Who brings a stimulus about where the ball is a robot.
+/// Who performs a stimulus for a real robot.
 enum class Doer : std::uint8_t { Program, Hand, Nobody };
 
 Doer doer_of(const vm::Stimulus& stimulus) {
@@ -45,7 +45,7 @@ Failure cannot(std::string message) {
 
 } // namespace
 
-/// Says what is to be done, and waits for Enter.
+/// Says what to do by hand, and waits for Enter.
 tl::expected<void, Failure> RobotStage::await_hands(const testing::Suite& suite,
                                                     const testing::Group& group,
                                                     const run::Options& options, run::Home home) {
@@ -97,7 +97,7 @@ tl::expected<void, Failure> RobotStage::ready(const testing::Suite& suite,
         "the robot did not find its way back to its mark: something is in its way, or it slips"};
     return tl::unexpected(*broken_);
   }
-  // Its mark is where it first stood, not where it happened to come to rest.
+  // The mark is where it was first placed, not where it came to rest.
   robot_.tether.aim = begun_ == 1 ? run::Aim::Zero : run::Aim::Keep;
   return {};
 }

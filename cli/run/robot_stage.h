@@ -10,24 +10,24 @@
 
 namespace orb::cli {
 
-/// Whether somebody stands beside the robot.
+/// Tells if somebody is next to the robot.
 enum class Attended : std::uint8_t { Yes, No };
 
-/// The place where tests run on a robot, one case after the other. Before each case the robot
-/// drives back to its mark, and who stands beside it is told what to do by hand.
+/// Runs tests on a robot, one case at a time. Before each case the robot drives back to its mark,
+/// and the person next to it is told what to do by hand.
 class RobotStage {
 public:
-  /// `cases`: how many there will be.
+  /// `cases`: how many will run.
   RobotStage(DrivenRobot& robot, Attended attended, std::uint64_t cases)
       : robot_(robot), attended_(attended), cases_(cases) {}
 
-  /// Runs a case; fails where it cannot be run. After a link is lost, or an interruption, no case
-  /// can be.
+  /// Runs a case; fails if that is impossible. After a lost link or an interruption no more cases
+  /// can run.
   tl::expected<run::Ending, Failure> play(const testing::Suite& suite, const testing::Group& group,
                                           const run::Options& options, run::Listener& listener,
                                           report::Journey& journey);
 
-  /// Why no more cases can be run; nothing where they can.
+  /// Why no more cases can run; nothing if they can.
   const std::optional<Failure>& broken() const { return broken_; }
 
 private:

@@ -13,7 +13,7 @@
 namespace orb::cli {
 namespace {
 
-/// Whether a read of standard input would come back at once.
+/// True if reading standard input would not block.
 bool input_is_there() {
   return std::cin.rdbuf()->in_avail() > 0 || input_waits();
 }

@@ -23,7 +23,7 @@
 
 namespace orb::cli {
 
-/// What `--trace` and `--trace-out` ask for; nothing where there is to be no trace.
+/// The format that `--trace` and `--trace-out` ask for; nothing without a trace.
 inline std::optional<report::TraceFormat> trace_format(std::string_view format,
                                                        std::string_view file) {
   if (format.empty() && file.empty())
@@ -32,7 +32,7 @@ inline std::optional<report::TraceFormat> trace_format(std::string_view format,
   return csv ? report::TraceFormat::Csv : report::TraceFormat::Json;
 }
 
-/// The command line of `orb run`.
+/// The options of `orb run`. Large because each option of the command line is a field.
 struct RunOptions {
   std::vector<std::string> files;
   std::string language;
@@ -48,11 +48,11 @@ struct RunOptions {
   std::string compare;
   std::string svg;
   TargetOptions target;
-  RosterOptions roster; ///< the robots; none for the virtual ball
-  PortOptions port;     ///< of one of them
+  RosterOptions roster; ///< the robots; none means the virtual ball
+  PortOptions port;     ///< link options for one of them
   std::string robot;
-  std::string ball;   ///< the profile of how it drives; empty for the model's
-  std::string record; ///< the file for a recording of the drive; empty for none
+  std::string ball;   ///< profile of how it drives; empty for the model's default
+  std::string record; ///< file to record the drive in; empty for none
   std::string replay;
   bool keep_aim = false;
   bool firmware_given = false;
@@ -60,9 +60,9 @@ struct RunOptions {
   bool realtime = false;
   bool lenient = false;
   bool watch = false;
-  bool sleeps = false; ///< the robot is put to sleep at the end
+  bool sleeps = false; ///< puts the robot to sleep at the end
   bool open = false;
-  bool together = false; ///< each file is a ball of one room
+  bool together = false; ///< each file is one ball of a room
   run::Options run;
 
   std::optional<report::TraceFormat> format() const { return trace_format(trace, trace_out); }
@@ -70,7 +70,7 @@ struct RunOptions {
 
 inline constexpr std::string_view from_stdin = "@stdin";
 
-/// Prints what the program prints, or its trace, and waits where the robot would take its time.
+/// Prints the output of the program or its trace, and waits where a robot would take time.
 class Console final : public run::Listener {
 public:
   Console(const RunOptions& options, const std::vector<run::Input>& inputs);
@@ -78,27 +78,27 @@ public:
   void on_event(Duration t, const vm::Event& event) override;
   void on_fault(Duration t, const run::ProgramError& fault) override;
   void on_time(Duration t) override;
-  /// Who types gets another try; what comes out of a file or a program is wrong for good. While a
-  /// robot drives, only what is there already is taken.
+  /// A person may try again; a wrong number from a file or program is final. While a robot drives,
+  /// takes only input that is already there.
   std::optional<std::int32_t> ask_number() override;
   bool has_more_numbers() const override;
 
-  /// Between which speeds, other than 0, it was told to drive.
-  struct Told {
+  /// The lowest and highest speed it was told to drive, other than 0.
+  struct SpeedRange {
     int slowest = spec::ball::greatest;
     int fastest = 0;
   };
-  const Told& speeds() const { return speeds_; }
+  const SpeedRange& speeds() const { return speeds_; }
 
-  /// What came instead of a number, for a message; empty for nothing.
+  /// The input that was not a number, for a message; empty if there was none.
   const std::string& no_number() const { return no_number_; }
 
   tl::expected<void, IoError> finish(const run::Ending& ending);
 
-  /// Where a robot drives, it has to be stopped before the command ends for want of a reader:
-  /// `on_lost` hears of that, once, and nothing more is printed.
+  /// Keeps the command running after the reader of its output has left, so that a driven robot can
+  /// be stopped. Calls `on_lost` once; prints nothing more.
   void outlive_output(std::function<void()> on_lost) { on_lost_ = std::move(on_lost); }
-  /// What ended the output; nothing where it did not end.
+  /// The error that ended the output; nothing if it did not end.
   const std::optional<OutputError>& lost() const { return lost_; }
 
 private:
@@ -109,10 +109,10 @@ private:
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   std::optional<run::Trace> trace_;
   std::string no_number_;
-  Told speeds_;
+  SpeedRange speeds_;
   std::function<void()> on_lost_;
   std::optional<OutputError> lost_;
-  std::string text_; ///< of a trace that goes to a file, which appears whole at the end
+  std::string text_; ///< of a trace to a file, which is written at the end
 };
 
 } // namespace orb::cli

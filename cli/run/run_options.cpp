@@ -12,7 +12,7 @@
 namespace orb::cli {
 namespace {
 
-/// `1,2,-3`; nothing where that is not a list of 32-bit numbers.
+/// Reads `1,2,-3`; nothing if it is not a list of 32-bit numbers.
 std::optional<std::vector<std::int32_t>> read_numbers(std::string_view text) {
   std::vector<std::int32_t> numbers;
   const char* at = text.data();
@@ -50,7 +50,7 @@ tl::expected<run::Options, Failure> read_options(const Context& context, const R
           fmt::format("`--input {}` is not a list of numbers such as 1,2,3", given.input));
     options.numbers = *std::move(numbers);
   }
-  options.firmware = spec::find_firmware(given.firmware)->firmware; // the options are checked
+  options.firmware = spec::find_firmware(given.firmware)->firmware; // the options have been checked
   if (!given.robot.empty())
     options.model = spec::find_robot(given.robot)->robot;
   if (!given.ball.empty()) {

@@ -8,7 +8,7 @@
 
 namespace orb::cli {
 
-/// What the words of the command line of `orb run` mean.
+/// Interprets the options of `orb run`.
 tl::expected<run::Options, Failure> read_options(const Context& context, const RunOptions& given);
 
 } // namespace orb::cli

@@ -10,7 +10,7 @@
 namespace orb::cli {
 namespace {
 
-/// Why not all robots can run it, as the options have it; empty where they can.
+/// Why these options allow a single robot only; empty if several can run.
 std::string_view for_one_robot(const RunOptions& options) {
   return options.open || options.report == "-"
              ? "`--open` and `--report -` show only one robot; with several, use `--report "
@@ -24,7 +24,7 @@ std::string_view for_one_robot(const RunOptions& options) {
                                        : "";
 }
 
-/// What would be wrong with each of several robots.
+/// Reports what would be wrong for every robot.
 tl::expected<void, Failure> check_for_several(const Context& context, const RunOptions& options) {
   if (const auto why = for_one_robot(options); !why.empty())
     return tl::unexpected(Failure{ExitCode::Usage, std::string(why)});
@@ -37,8 +37,8 @@ tl::expected<void, Failure> check_for_several(const Context& context, const RunO
   return check_inputs(context, *inputs);
 }
 
-/// Why one of several robots cannot run it.
-std::optional<std::string> misfit(const RunOptions& options, const Member& robot) {
+/// Why one of several robots cannot run the program.
+std::optional<std::string> robot_misfit(const RunOptions& options, const RosterMember& robot) {
   if (!robot.robot || options.robot.empty() || spec::info(*robot.robot).name == options.robot)
     return std::nullopt;
   return fmt::format("is a {}, not a {}; omit `--robot {}`", spec::info(*robot.robot).title,
@@ -53,15 +53,16 @@ void run_on_robots(Context& context, const RunOptions& options,
   many.command = "run";
   many.jobs = all_at_once;
   many.check = [&] { return check_for_several(context, options); };
-  many.misfit = [&](const Member& robot) { return misfit(options, robot); };
-  with_robots(context, options.roster, many, [&](Context& own, const Member& robot, Row* row) {
-    auto one = options;
-    one.port.port = robot.port;
-    if (row != nullptr)
-      for (auto* file : {&one.record, &one.report, &one.svg, &one.trace_out})
-        *file = file_of(*file, robot);
-    run_one(own, one);
-  });
+  many.misfit = [&](const RosterMember& robot) { return robot_misfit(options, robot); };
+  with_robots(context, options.roster, many,
+              [&](Context& own, const RosterMember& robot, Row* row) {
+                auto one = options;
+                one.port.port = robot.port;
+                if (row != nullptr)
+                  for (auto* file : {&one.record, &one.report, &one.svg, &one.trace_out})
+                    *file = file_of(*file, robot);
+                run_one(own, one);
+              });
 }
 
 } // namespace orb::cli

@@ -16,7 +16,7 @@
 namespace orb::cli {
 namespace {
 
-/// So long a command may take to fail. A browser that was not running yet goes on for longer.
+/// How long a command may take to fail. A newly started browser takes longer.
 constexpr timespec opening_time{2, 0};
 
 using Words = std::vector<std::string>;
@@ -44,7 +44,7 @@ std::vector<Words> openers(const std::string& file) {
   return list;
 }
 
-/// Where the process comes to an end soon: its status, as waitpid(2) gives it.
+/// Waits briefly for the process to end; returns its status as from waitpid(2).
 std::optional<int> soon_ended(pid_t process, const sigset_t& child_ends) {
   int status = 0;
   if (::waitpid(process, &status, WNOHANG) != 0)
@@ -53,11 +53,11 @@ std::optional<int> soon_ended(pid_t process, const sigset_t& child_ends) {
   return ::waitpid(process, &status, WNOHANG) != 0 ? std::optional(status) : std::nullopt;
 }
 
-/// Starts a command that has no terminal and no part in our signals; true when it may have worked.
+/// Starts a command without a terminal and without our signals; returns true if it may have worked.
 bool start(const Words& words) {
   std::vector<char*> arguments;
   for (const auto& word : words)
-    arguments.push_back(const_cast<char*>(word.c_str())); // execvp(3) does not write
+    arguments.push_back(const_cast<char*>(word.c_str())); // execvp(3) does not modify its arguments
   arguments.push_back(nullptr);
 
   posix_spawn_file_actions_t files;

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 #include <windows.h>
 
-#include <shellapi.h> // needs what that declares
+#include <shellapi.h> // needs windows.h
 
 namespace orb::cli {
 

@@ -15,7 +15,7 @@ tl::expected<void, Failure> await_enter(std::string_view remedy) {
   std::string line;
   const bool pressed = static_cast<bool>(std::getline(std::cin, line));
   if (!pressed || !is_terminal(Stream::In))
-    print_err("\n"); // a terminal has shown the Enter itself
+    print_err("\n"); // a terminal has echoed the Enter
   if (pressed)
     return {};
   if (InterruptGuard::asked() > 0)

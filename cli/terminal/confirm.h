@@ -7,8 +7,8 @@
 
 namespace orb::cli {
 
-/// Asks for Enter on standard error and waits for it. Ctrl-C is ExitCode::Interrupted; where
-/// standard input ends first it is ExitCode::Usage, with `remedy` for what to write instead.
+/// Asks for Enter on standard error and waits. Fails with ExitCode::Interrupted on Ctrl-C, and with
+/// ExitCode::Usage if standard input ends; `remedy` then says what to write instead.
 tl::expected<void, Failure> await_enter(std::string_view remedy);
 
 } // namespace orb::cli

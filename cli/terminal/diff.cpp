@@ -11,7 +11,7 @@ namespace orb::cli {
 namespace {
 
 constexpr std::size_t context_lines = 3;
-constexpr std::size_t look_ahead = 32; // lines that may be added or removed in one place
+constexpr std::size_t look_ahead = 32; // lines that may be added or removed at one place
 
 /// Lines with their line ends.
 std::vector<std::string_view> split(std::string_view text) {
@@ -25,7 +25,7 @@ std::vector<std::string_view> split(std::string_view text) {
 }
 
 /// A run of lines: equal in both, or replaced.
-struct Step {
+struct DiffRun {
   std::size_t old_begin, old_end, new_begin, new_end;
   bool equal;
 };
@@ -37,17 +37,17 @@ public:
 
   std::string print(std::string_view name) {
     walk();
-    if (steps_.size() == 1 && steps_[0].equal)
+    if (runs_.size() == 1 && runs_[0].equal)
       return {};
     std::string out = fmt::format("--- a/{0}\n+++ b/{0}\n", shown_name(name));
-    for (std::size_t i = 0; i < steps_.size();)
-      i = steps_[i].equal ? i + 1 : print_hunk(out, i);
+    for (std::size_t i = 0; i < runs_.size();)
+      i = runs_[i].equal ? i + 1 : print_hunk(out, i);
     return out;
   }
 
 private:
-  /// Formatting changes lines one by one, so the next equal pair is close by: the nearest one is
-  /// taken, which always gives a correct diff and nearly always the shortest.
+  /// Formatting changes lines one by one, so the next equal pair is close. Taking the nearest one
+  /// always gives a correct diff, and nearly always the shortest.
   void walk() {
     std::size_t i = 0;
     std::size_t j = 0;
@@ -75,44 +75,44 @@ private:
     return {i < old_.size() ? 1 : 0, j < new_.size() ? 1 : 0};
   }
 
-  void add(const Step& step) {
-    if (!steps_.empty() && steps_.back().equal == step.equal) {
-      steps_.back().old_end = step.old_end;
-      steps_.back().new_end = step.new_end;
+  void add(const DiffRun& step) {
+    if (!runs_.empty() && runs_.back().equal == step.equal) {
+      runs_.back().old_end = step.old_end;
+      runs_.back().new_end = step.new_end;
     } else {
-      steps_.push_back(step);
+      runs_.push_back(step);
     }
   }
 
-  /// Prints the change at step `i` and those so close that their contexts touch; returns the step
+  /// Prints the change at step `i`, including following ones whose contexts touch; returns the step
   /// after them.
   std::size_t print_hunk(std::string& out, std::size_t i) {
     auto last = i;
-    while (last + 2 < steps_.size() &&
-           steps_[last + 1].old_end - steps_[last + 1].old_begin <= 2 * context_lines)
+    while (last + 2 < runs_.size() &&
+           runs_[last + 1].old_end - runs_[last + 1].old_begin <= 2 * context_lines)
       last += 2;
     const auto lead =
-        i == 0 ? 0 : std::min(context_lines, steps_[i - 1].old_end - steps_[i - 1].old_begin);
+        i == 0 ? 0 : std::min(context_lines, runs_[i - 1].old_end - runs_[i - 1].old_begin);
     const auto tail =
-        last + 1 < steps_.size()
-            ? std::min(context_lines, steps_[last + 1].old_end - steps_[last + 1].old_begin)
+        last + 1 < runs_.size()
+            ? std::min(context_lines, runs_[last + 1].old_end - runs_[last + 1].old_begin)
             : 0;
-    const auto old_begin = steps_[i].old_begin - lead;
-    const auto new_begin = steps_[i].new_begin - lead;
-    const auto old_size = steps_[last].old_end + tail - old_begin;
-    const auto new_size = steps_[last].new_end + tail - new_begin;
+    const auto old_begin = runs_[i].old_begin - lead;
+    const auto new_begin = runs_[i].new_begin - lead;
+    const auto old_size = runs_[last].old_end + tail - old_begin;
+    const auto new_size = runs_[last].new_end + tail - new_begin;
     out += fmt::format("@@ -{},{} +{},{} @@\n", old_size == 0 ? old_begin : old_begin + 1, old_size,
                        new_size == 0 ? new_begin : new_begin + 1, new_size);
-    put(out, ' ', old_, old_begin, steps_[i].old_begin);
+    put(out, ' ', old_, old_begin, runs_[i].old_begin);
     for (auto n = i; n <= last; ++n) {
-      if (steps_[n].equal) {
-        put(out, ' ', old_, steps_[n].old_begin, steps_[n].old_end);
+      if (runs_[n].equal) {
+        put(out, ' ', old_, runs_[n].old_begin, runs_[n].old_end);
         continue;
       }
-      put(out, '-', old_, steps_[n].old_begin, steps_[n].old_end);
-      put(out, '+', new_, steps_[n].new_begin, steps_[n].new_end);
+      put(out, '-', old_, runs_[n].old_begin, runs_[n].old_end);
+      put(out, '+', new_, runs_[n].new_begin, runs_[n].new_end);
     }
-    put(out, ' ', old_, steps_[last].old_end, steps_[last].old_end + tail);
+    put(out, ' ', old_, runs_[last].old_end, runs_[last].old_end + tail);
     return last + 1;
   }
 
@@ -128,7 +128,7 @@ private:
 
   std::vector<std::string_view> old_;
   std::vector<std::string_view> new_;
-  std::vector<Step> steps_;
+  std::vector<DiffRun> runs_;
 };
 
 } // namespace

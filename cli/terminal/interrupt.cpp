@@ -6,11 +6,11 @@
 namespace orb::cli {
 namespace {
 
-/// How often the user asked to stop. A signal handler may touch nothing but this.
+/// How often the user asked to stop. The signal handler touches nothing else.
 std::atomic<int> requests = 0;
 static_assert(std::atomic<int>::is_always_lock_free);
 
-/// How many guards there are: where several robots are worked with, one for all and one for each.
+/// The number of live guards: with several robots, one for all and one for each.
 std::atomic<int> guards = 0;
 
 extern "C" void count_request(int) {
@@ -28,7 +28,7 @@ InterruptGuard::InterruptGuard() {
   sigemptyset(&action.sa_mask);
   ::sigaction(SIGINT, &action, nullptr);
   ::sigaction(SIGTERM, &action, nullptr);
-  // The terminal is gone, the robot is not. Under nohup nobody minds.
+  // Losing the terminal must not lose control of the robot. Under nohup, SIGHUP stays ignored.
   struct sigaction before {};
   ::sigaction(SIGHUP, nullptr, &before);
   hears_hangup_ = before.sa_handler != SIG_IGN;

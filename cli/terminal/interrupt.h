@@ -6,8 +6,8 @@
 
 namespace orb::cli {
 
-/// Makes SIGINT, SIGTERM and SIGHUP a request to stop instead of a death, as long as it lives. One
-/// within another changes nothing: the first one counts for all.
+/// Turns SIGINT, SIGTERM and SIGHUP into a request to stop during its lifetime. A nested guard has
+/// no effect: the outermost one counts.
 class InterruptGuard {
 public:
   InterruptGuard();
@@ -15,16 +15,15 @@ public:
   InterruptGuard(const InterruptGuard&) = delete;
   InterruptGuard& operator=(const InterruptGuard&) = delete;
 
-  /// How often the user asked to stop since the first guard was made.
+  /// How often the user asked to stop since the outermost guard was made.
   static int asked();
 
 private:
   bool hears_hangup_ = false;
 };
 
-/// A Transport around a Transport whose waits end when the user asks to stop: the next read or
-/// write is then the error Interrupted, once; what follows is clean-up and goes through. A second
-/// request ends that too.
+/// A Transport whose waits end when the user asks to stop: the next read or write fails once with
+/// Interrupted; later ones succeed, so clean-up can finish. A second request also ends that.
 class InterruptibleTransport final : public protocol::Transport {
 public:
   explicit InterruptibleTransport(std::unique_ptr<protocol::Transport> inner)
@@ -34,9 +33,9 @@ public:
   tl::expected<void, protocol::LinkError> write(ByteView bytes) override;
   tl::expected<Bytes, protocol::LinkError> read(Instant deadline) override;
 
-  /// As if the user had asked to stop, for this link alone.
+  /// Acts as if the user had asked to stop, for this link only.
   void interrupt() { ++own_; }
-  /// Lets go of what is around it: from now on it is a link that is lost.
+  /// Releases the inner transport: from now on the link is lost.
   void close();
 
 private:

@@ -7,14 +7,14 @@ namespace orb::cli {
 namespace {
 
 std::atomic<int> requests = 0; ///< how often the user asked to stop
-std::atomic<int> guards = 0;   ///< how many there are
+std::atomic<int> guards = 0;   ///< number of live guards
 
-/// Windows calls it on a thread of its own: for Ctrl-C, Ctrl-Break, and a console that is closed,
-/// which ends the process a few seconds after this has returned, or when it does.
+/// Windows calls it on a separate thread: for Ctrl-C, Ctrl-Break, and closing the console, which
+/// ends the process when this returns or after a few seconds.
 BOOL WINAPI count_request(DWORD event) {
   requests.fetch_add(1, std::memory_order_relaxed);
   if (event == CTRL_CLOSE_EVENT || event == CTRL_SHUTDOWN_EVENT || event == CTRL_LOGOFF_EVENT)
-    while (guards > 0) // the robot is stopped in the meantime
+    while (guards > 0) // meanwhile the robot is stopped
       ::Sleep(10);
   return TRUE;
 }

@@ -8,10 +8,10 @@ namespace orb::cli {
 
 namespace {
 
-/// A link that somebody has closed; only its time goes on.
-class Closed final : public protocol::Transport {
+/// A closed link; only its clock goes on.
+class ClosedLink final : public protocol::Transport {
 public:
-  explicit Closed(Instant now) : now_(now) {}
+  explicit ClosedLink(Instant now) : now_(now) {}
 
   Instant now() const override {
     return now_ + std::chrono::duration_cast<Duration>(std::chrono::steady_clock::now() - began_);
@@ -35,7 +35,7 @@ private:
 } // namespace
 
 void InterruptibleTransport::close() {
-  inner_ = std::make_unique<Closed>(now());
+  inner_ = std::make_unique<ClosedLink>(now());
 }
 
 bool InterruptibleTransport::stop() {
@@ -51,7 +51,7 @@ tl::expected<void, protocol::LinkError> InterruptibleTransport::write(ByteView b
         protocol::LinkError{protocol::LinkError::Kind::Interrupted, "interrupted"});
   auto written = inner_->write(bytes);
   if (!written && written.error().kind == protocol::LinkError::Kind::Interrupted)
-    seen_ = asked(); // it noticed by itself
+    seen_ = asked(); // the link failed by itself
   return written;
 }
 

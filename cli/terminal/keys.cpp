@@ -37,7 +37,7 @@ Keys::Keys() {
   if (!is_terminal(Stream::In) || ::tcgetattr(STDIN_FILENO, &settings) != 0)
     return;
   before_ = std::make_unique<Before>(Before{settings});
-  settings.c_lflag &= ~static_cast<tcflag_t>(ICANON | ECHO); // Ctrl-C still interrupts
+  settings.c_lflag &= ~static_cast<tcflag_t>(ICANON | ECHO); // keeps Ctrl-C
   ::tcsetattr(STDIN_FILENO, TCSANOW, &settings);
 }
 

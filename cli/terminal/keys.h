@@ -5,17 +5,17 @@
 
 namespace orb::cli {
 
-/// Keys of a terminal that are no characters.
+/// Terminal keys that are not characters.
 enum class Key : std::uint8_t { None, Up, Down, LeftArrow, RightArrow, End };
 
-/// What was pressed: a key, or a character; neither where nothing was. `End`: no more will come.
+/// A key or a character; neither if nothing was pressed. `End`: the input has ended.
 struct Pressed {
   Key key = Key::None;
   char character = 0;
 };
 
-/// The keys of standard input. A terminal hands them over one by one, without showing them, until
-/// give_back(); a pipe its characters.
+/// Reads keys from standard input: from a terminal one by one without echo, until give_back(); from
+/// a pipe its characters.
 class Keys {
 public:
   Keys();
@@ -24,15 +24,15 @@ public:
   Keys& operator=(const Keys&) = delete;
 
   bool from_terminal() const;
-  /// Whether next() waits for a pipe that has nothing yet; for a terminal it never does.
+  /// Tells if next() waits for an empty pipe; it never waits for a terminal.
   enum class Wait : std::uint8_t { No, ForPipe };
   Pressed next(Wait wait);
-  /// The terminal is as it was.
+  /// Restores the terminal.
   void give_back();
 
 private:
   struct Before;
-  std::unique_ptr<Before> before_; ///< of a terminal; else null
+  std::unique_ptr<Before> before_; ///< for a terminal; else null
 };
 
 } // namespace orb::cli

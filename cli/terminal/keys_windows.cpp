@@ -16,7 +16,7 @@ Keys::Keys() {
   if (::GetConsoleMode(in, &mode) == 0)
     return;
   before_ = std::make_unique<Before>(Before{mode});
-  ::SetConsoleMode(in, ENABLE_PROCESSED_INPUT); // Ctrl-C still interrupts
+  ::SetConsoleMode(in, ENABLE_PROCESSED_INPUT); // keeps Ctrl-C
 }
 
 Keys::~Keys() {

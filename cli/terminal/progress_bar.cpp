@@ -11,7 +11,7 @@ using uploader::Stage;
 using uploader::Status;
 
 constexpr int bar_width = 20; // columns
-/// Until a link has been watched so long, what it takes into its buffers says nothing of its speed.
+/// Seconds; before that the bytes only fill the link's buffers and do not show its speed.
 constexpr double least_seconds = 0.25;
 constexpr std::string_view clear_line = "\r\033[K";
 
@@ -119,7 +119,7 @@ CountBar::~CountBar() {
 
 void CountBar::show(std::uint64_t done, std::uint64_t all) {
   using namespace std::chrono;
-  constexpr auto pause = milliseconds{100}; // more often nobody sees
+  constexpr auto pause = milliseconds{100}; // more frequent updates are not visible
   const auto now = steady_clock::now();
   if (!animated_ || all == 0 || now - drawn_at_ < pause)
     return;

@@ -11,8 +11,8 @@
 
 namespace orb::cli {
 
-/// Shows how an upload goes on, on stderr: a bar that is drawn over itself on a terminal, a line
-/// now and then elsewhere, nothing with -q.
+/// Shows the progress of an upload on stderr: on a terminal a bar updated in place, elsewhere an
+/// occasional line, nothing with -q.
 class ProgressBar final : public uploader::Progress {
 public:
   explicit ProgressBar(const Context& context);
@@ -23,7 +23,7 @@ public:
   void on_item(std::string_view name) override;
   void on_status(const uploader::Status& status, Instant now) override;
 
-  /// Takes the bar off the screen, so that something else can be printed.
+  /// Removes the bar, so that something else can be printed.
   void clear();
 
 private:
@@ -39,7 +39,7 @@ private:
   int told_quarter_ = 0;
 };
 
-/// The same for things that are counted: drawn on a terminal a few times a second, else nothing.
+/// The same for countable things: updated a few times a second on a terminal, nothing elsewhere.
 class CountBar {
 public:
   CountBar(const Context& context, std::string_view noun);
@@ -57,13 +57,13 @@ private:
   std::chrono::steady_clock::time_point drawn_at_ = start_;
 };
 
-/// Whether stderr is a terminal on which a line can be drawn over itself.
+/// True if stderr is a terminal whose line can be updated in place.
 bool can_animate();
 
-/// `[#####---------------]`: how much of it is sent.
+/// `[#####---------------]`: the share sent.
 std::string progress_bar(const uploader::Status& status);
 
-/// The numbers and what is left, without the name and the bar.
+/// The numbers and the remaining time, without name and bar.
 std::string describe_progress(const uploader::Status& status, Duration sending_for);
 
 } // namespace orb::cli

@@ -28,20 +28,20 @@ Stamp stamp(const std::string& path) {
   return {true, status.st_ino, status.st_size, status.st_mtim.tv_sec, status.st_mtim.tv_nsec};
 }
 
-/// The signals that end watching, held back so that none is lost between two looks; in the watching
-/// process for good, so that a second one does not end it before its exit code.
-class Held {
+/// Blocks the signals that end watching, so that none is lost between two checks. In the watching
+/// process for good: a second signal must not end it before its exit code.
+class BlockedSignals {
 public:
-  Held() {
+  BlockedSignals() {
     sigemptyset(&signals_);
     for (const int signal : {SIGINT, SIGTERM})
       sigaddset(&signals_, signal);
     sigprocmask(SIG_BLOCK, &signals_, &before_);
   }
 
-  /// For the process of a run, which they end.
+  /// Unblocks them, for the process of a run, which they end.
   void release() { sigprocmask(SIG_SETMASK, &before_, nullptr); }
-  /// Waits one period; true when a signal came.
+  /// Waits one period; returns true if a signal came.
   bool came() const { return sigtimedwait(&signals_, nullptr, &period) > 0; }
 
 private:
@@ -49,7 +49,7 @@ private:
   sigset_t before_;
 };
 
-/// One run of the command at a time, in a process of its own.
+/// Runs the command in a child process, one at a time.
 class Runs {
 public:
   Runs(Context& context, const std::function<void()>& once) : context_(context), once_(once) {}
@@ -66,7 +66,7 @@ public:
                                         std::strerror(errno)));
     if (process_ != 0)
       return;
-    held_.release();
+    signals_.release();
     once_();
     std::fflush(nullptr);
     ::_exit(static_cast<int>(context_.exit));
@@ -81,7 +81,7 @@ public:
     return pipe ? RunEnd::ReaderGone : RunEnd::Finished;
   }
 
-  bool interrupted() { return held_.came(); }
+  bool interrupted() { return signals_.came(); }
 
 private:
   void stop() {
@@ -94,7 +94,7 @@ private:
 
   Context& context_;
   const std::function<void()>& once_;
-  Held held_;
+  BlockedSignals signals_;
   pid_t process_ = 0;
 };
 

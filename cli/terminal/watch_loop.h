@@ -11,13 +11,13 @@
 
 namespace orb::cli {
 
-/// What became of a run since it was last asked about.
+/// The state of a run since the last query.
 enum class RunEnd { NotYet, Finished, ReaderGone };
 
-/// The loop of watch() over what each system has: `Runs`, which begins a run by start() and ends
-/// the one before, knows its end(), and in interrupted() waits a tenth of a second for Ctrl-C; and
-/// `stamp`, which gives what changes when a file is written, replaced or removed. Looking works on
-/// every file system and through every way in which an editor saves; a notification does not.
+/// The loop of watch(), on top of each system's own parts. `Runs` starts a run with start(), ending
+/// the previous one, reports its end(), and waits a tenth of a second for Ctrl-C in interrupted().
+/// `stamp` returns a value that changes when a file is written, replaced or removed. Polling works
+/// on every file system and for every way in which editors save; notifications do not.
 template <class Runs, class StampOf>
 void watch_with(Runs&& runs, StampOf* stamp, Context& context,
                 const std::function<std::vector<std::string>()>& list,

@@ -11,18 +11,17 @@
 #include <system_error>
 #include <windows.h>
 
-#include <shellapi.h> // needs what that declares
+#include <shellapi.h> // needs windows.h
 
 namespace orb::cli {
 namespace {
 
 constexpr DWORD period_ms = 100;
 
-/// Is set for a process that is one run of a command that is watched.
+/// Set in the child process of a watched command.
 constexpr const wchar_t* mark = L"ORB_WATCHED_RUN";
 
-/// What changes when a file is written, replaced or removed: whether it is there, which one, how
-/// long and when written.
+/// Changes when a file is written, replaced or removed: existence, identity, size and time.
 using Stamp = std::array<DWORD, 6>;
 
 Stamp stamp(const std::string& path) {
@@ -42,8 +41,7 @@ Stamp stamp(const std::string& path) {
           info.ftLastWriteTime.dwLowDateTime};
 }
 
-/// A word of a command line, as CommandLineToArgvW() reads it back: a backslash counts as one of
-/// two only before a quote.
+/// Quotes a word for CommandLineToArgvW(): backslashes are doubled only before a quote.
 std::wstring quoted(const std::wstring& word) {
   std::wstring out = L"\"";
   std::size_t slashes = 0;
@@ -56,7 +54,7 @@ std::wstring quoted(const std::wstring& word) {
   return out.append(slashes, L'\\') + L'"';
 }
 
-/// The command line of this process with `words` among its options, which end at `--`.
+/// The command line of this process with `words` inserted among its options, before `--`.
 std::wstring command_line(const std::vector<std::string>& words) {
   int count = 0;
   wchar_t** const given = ::CommandLineToArgvW(::GetCommandLineW(), &count);
@@ -71,7 +69,7 @@ std::wstring command_line(const std::vector<std::string>& words) {
   return line;
 }
 
-/// A job, in which a process ends with this one, however that comes about.
+/// Makes a job, whose processes end together with this one in any case.
 HANDLE make_job() {
   const auto job = ::CreateJobObjectW(nullptr, nullptr);
   JOBOBJECT_EXTENDED_LIMIT_INFORMATION limits{};
@@ -80,7 +78,7 @@ HANDLE make_job() {
   return job;
 }
 
-/// One run of the command at a time, in a process of its own.
+/// Runs the command in a child process, one at a time.
 class Runs {
 public:
   Runs(Context& context, std::wstring line) : context_(context), line_(std::move(line)) {}
@@ -93,7 +91,7 @@ public:
 
   void start() {
     stop();
-    std::array<wchar_t, 32768> program{}; // as long as a path may be
+    std::array<wchar_t, 32768> program{}; // longest possible path
     ::GetModuleFileNameW(nullptr, program.data(), program.size());
     STARTUPINFOW start{};
     start.cb = sizeof start;
@@ -102,7 +100,7 @@ public:
     start.hStdOutput = ::GetStdHandle(STD_OUTPUT_HANDLE);
     start.hStdError = ::GetStdHandle(STD_ERROR_HANDLE);
     PROCESS_INFORMATION made{};
-    auto line = line_; // is written into
+    auto line = line_; // CreateProcessW() modifies it
     ::SetEnvironmentVariableW(mark, L"1");
     const bool begun = ::CreateProcessW(program.data(), line.data(), nullptr, nullptr, TRUE,
                                         CREATE_SUSPENDED, nullptr, nullptr, &start, &made) != 0;

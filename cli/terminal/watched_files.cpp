@@ -5,7 +5,7 @@
 namespace orb::cli {
 namespace {
 
-/// Reads from the disk and keeps in mind what was asked for, there or not.
+/// Reads from disk and remembers the requested paths, existing or not.
 class NotedFiles final : public structured::Files {
 public:
   std::optional<std::string> read(const std::string& path) override {

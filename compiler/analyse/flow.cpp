@@ -6,9 +6,9 @@
 namespace orb::compiler {
 namespace {
 
-class Reader {
+class FlowReader {
 public:
-  explicit Reader(const Program& program) : program_(program) {}
+  explicit FlowReader(const Program& program) : program_(program) {}
 
   Flow read() {
     flow_.code.reserve(program_.lines.size());
@@ -59,11 +59,11 @@ private:
     return then_falls || else_falls;
   }
 
-  /// Notes what a statement does to the way of the program, and where it jumps; returns whether the
-  /// next line can follow.
+  /// Records the effect of a statement on control flow and its jumps; returns true if the next line
+  /// can follow.
   bool follow(const StatementNode& statement, Flow::Code& code) {
     if (statement.error)
-      return true; // once corrected it goes on; lint asks may_steer() first
+      return true; // it falls through once corrected; lint asks may_steer() first
     ++flow_.begins[static_cast<std::size_t>(statement.kind) + 1];
     const auto& row = spec::info(statement.kind);
     switch (row.after) {
@@ -97,12 +97,12 @@ private:
     }
   }
 
-  /// Each kind has been counted in place of where the next one begins.
+  /// Prefix sum: turns the count of each kind into the start of the next kind.
   void sort_places() {
     std::partial_sum(flow_.begins.begin(), flow_.begins.end(), flow_.begins.begin());
     flow_.places.resize(flow_.begins.back());
     auto next = flow_.begins;
-    std::uint32_t code = 0; // the branches of a line stand right after it
+    std::uint32_t code = 0; // the statements in the branches of a line follow it directly
     for (std::uint32_t i = 0; i < program_.statements.size(); ++i) {
       const auto& statement = program_.statements[i];
       code += code + 1 < flow_.code.size() && flow_.code[code + 1].statement == i ? 1 : 0;
@@ -125,7 +125,7 @@ const Flow::Number* Flow::find(std::uint32_t number) const {
 }
 
 Flow read_flow(const Program& program) {
-  return Reader(program).read();
+  return FlowReader(program).read();
 }
 
 } // namespace orb::compiler

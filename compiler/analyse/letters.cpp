@@ -6,10 +6,11 @@
 namespace orb::compiler {
 namespace {
 
-constexpr std::uint32_t most_lines = 2048; ///< no area of the robot holds as many
+constexpr std::uint32_t most_lines = 2048; ///< more than fit into any robot
 constexpr std::size_t most_routines = 64;
 
-/// Whether a bit of one of two joined letters is one of the result.
+/// The bit of a joined letter: set if it holds on both sides, or on the side that equals the
+/// result.
 LetterSet joined_bit(LetterSet a, LetterSet b, const Range& left, const Range& right,
                      const Range& joined, LetterSet mask) {
   const bool from_left = (a & mask) != 0;
@@ -19,20 +20,20 @@ LetterSet joined_bit(LetterSet a, LetterSet b, const Range& left, const Range& r
   return 0;
 }
 
-/// Whether the same is known of a letter.
-bool same(const Letters& a, const Letters& b, std::size_t letter) {
+/// True if the state of a letter is the same in both.
+bool same(const LetterFacts& a, const LetterFacts& b, std::size_t letter) {
   return a.ranges[letter] == b.ranges[letter] &&
          (((a.exact ^ b.exact) | (a.dense ^ b.dense)) & bit(letter)) == 0;
 }
 
-/// Joins one letter; whether its range changed.
-bool join_letter(Letters& into, const Letters& from, std::size_t letter) {
+/// Joins one letter; returns true if its range changed.
+bool join_letter(LetterFacts& into, const LetterFacts& from, std::size_t letter) {
   const auto old = into.ranges[letter];
   const auto& other = from.ranges[letter];
   const auto mask = bit(letter);
   const auto joined = join(old, other);
   const auto exact = joined_bit(into.exact, from.exact, old, other, joined, mask);
-  // Between two ranges there may be a gap.
+  // Two ranges may leave a gap between them.
   const auto dense = old == joined || other == joined
                          ? joined_bit(into.dense, from.dense, old, other, joined, mask)
                          : 0;
@@ -44,7 +45,7 @@ bool join_letter(Letters& into, const Letters& from, std::size_t letter) {
 
 } // namespace
 
-bool join_into(Letters& into, const Letters& from, LetterSet letters) {
+bool join_into(LetterFacts& into, const LetterFacts& from, LetterSet letters) {
   bool changed = false;
   into.narrowed |= from.narrowed & letters;
   for (; letters != 0; letters &= letters - 1)
@@ -78,7 +79,7 @@ bool LetterFlow::prepare() {
       continue;
     const auto& line = program_.nodes[program_.as<SleepView>(statement).line.value];
     if (line.kind != NodeKind::Number || line.value > 0)
-      return false; // it wakes up at any line
+      return false; // it may wake up at any line
   }
   find_routines();
   if (routines_.size() > most_routines)
@@ -101,7 +102,7 @@ void LetterFlow::find_routines() {
         return routine.written;
     return LetterSet{0};
   };
-  for (bool changed = true; changed;) { // what they write together with those that they call
+  for (bool changed = true; changed;) { // closure: add what their callees write
     changed = false;
     for (auto& routine : routines_)
       for (const auto callee : routine.callees) {
@@ -158,7 +159,7 @@ void LetterFlow::find_landmarks() {
   landmarks_ = landmarks_of(std::move(named));
 }
 
-const Letters* LetterFlow::before(std::uint32_t code) const {
+const LetterFacts* LetterFlow::before(std::uint32_t code) const {
   const auto& block = blocks_[block_of_[code]];
   return block.reached ? &block.letters : nullptr;
 }
@@ -168,9 +169,9 @@ void LetterFlow::wait(std::uint32_t block) {
   first_waiting_ = std::min(first_waiting_, block);
 }
 
-void LetterFlow::enter(std::uint32_t code, const Letters& letters) {
+void LetterFlow::enter(std::uint32_t code, const LetterFacts& letters) {
   if (code >= block_of_.size() || block_of_[code] == none)
-    return; // no line, or one that the one above leads to
+    return; // no line, or one reached from the line above
   auto& block = blocks_[block_of_[code]];
   if (!block.reached) {
     block.reached = true;
@@ -182,7 +183,7 @@ void LetterFlow::enter(std::uint32_t code, const Letters& letters) {
     wait(block_of_[code]);
 }
 
-bool LetterFlow::grow(Letters& into, const Letters& from, std::uint32_t visits) const {
+bool LetterFlow::grow(LetterFacts& into, const LetterFacts& from, std::uint32_t visits) const {
   constexpr std::uint32_t patience = 2;
   constexpr std::uint32_t limit = 24;
   const auto before = into;
@@ -200,7 +201,7 @@ bool LetterFlow::grow(Letters& into, const Letters& from, std::uint32_t visits) 
   return true;
 }
 
-bool LetterFlow::call(std::uint32_t entry, std::uint32_t from, Letters& letters) {
+bool LetterFlow::call(std::uint32_t entry, std::uint32_t from, LetterFacts& letters) {
   const auto routine = std::find_if(routines_.begin(), routines_.end(),
                                     [&](const Routine& one) { return one.entry == entry; });
   if (routine == routines_.end())
@@ -221,11 +222,11 @@ bool LetterFlow::call(std::uint32_t entry, std::uint32_t from, Letters& letters)
   return true;
 }
 
-void LetterFlow::leave(std::uint32_t code, const Letters& letters) {
+void LetterFlow::leave(std::uint32_t code, const LetterFacts& letters) {
   for (auto& routine : routines_) {
     if (routine.lines[code] == 0)
       continue;
-    // What a routine that calls itself leaves would grow by a step each time.
+    // The result of a recursive routine would grow by a step each time.
     const bool changed = !routine.returned || grow(routine.letters, letters, routine.growths);
     if (!routine.returned)
       routine.letters = letters;

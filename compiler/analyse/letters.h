@@ -11,7 +11,7 @@
 
 namespace orb::compiler {
 
-/// A set of letters, a bit each.
+/// A set of letters, one bit each.
 using LetterSet = std::uint64_t;
 static_assert(most_letters <= 64);
 
@@ -25,48 +25,48 @@ inline LetterSet letters_of(const Program& program) {
   return program.letters == most_letters ? ~LetterSet{0} : bit(program.letters) - 1;
 }
 
-/// What is known of the letters at a place of a program.
-struct Letters {
+/// The analysis state of the letters at a program point.
+struct LetterFacts {
   std::array<Range, most_letters> ranges{};
-  LetterSet exact = 0;    ///< of these both ends of the range are values that they take
-  LetterSet dense = 0;    ///< and of these all between, as of a sensor
-  LetterSet narrowed = 0; ///< of these a test has left some, perhaps none that they ever have
+  LetterSet exact = 0;    ///< both ends of the range are values that occur
+  LetterSet dense = 0;    ///< in addition, so are all values between, as for a sensor
+  LetterSet narrowed = 0; ///< narrowed by a test, so perhaps to values that never occur
 
-  static Letters zero() {
-    Letters letters;
+  static LetterFacts zero() {
+    LetterFacts letters;
     letters.ranges.fill(Range::only(0));
     letters.exact = ~LetterSet{0};
     return letters;
   }
 };
 
-/// Joins `from` into `into`, of these letters: the others are known to be the same. Whether that
-/// changed a range.
-bool join_into(Letters& into, const Letters& from, LetterSet letters);
+/// Joins these letters of `from` into `into`; the others must already be equal. Returns true if a
+/// range changed.
+bool join_into(LetterFacts& into, const LetterFacts& from, LetterSet letters);
 
-/// The lines of a program at which what is known of its letters is kept, and what is known there
-/// after all ways have been followed. The one who follows says what lines do.
+/// The fixed point of a data-flow analysis: keeps the state of the letters at the lines where paths
+/// meet. The caller evaluates the lines between.
 class LetterFlow {
 public:
   LetterFlow(const Program& program, const Flow& flow) : program_(program), flow_(flow) {}
 
-  /// Finds the places. False for programs that are too large for any robot: nothing is known of
-  /// them.
+  /// Finds these lines. Returns false if the program is too large for any robot: then nothing is
+  /// known.
   bool prepare();
 
   bool is_kept(std::uint32_t code) const { return block_of_[code] != none; }
-  /// What is known before a kept line; null where no way leads to it.
-  const Letters* before(std::uint32_t code) const;
+  /// The state before a kept line; null if it is unreachable.
+  const LetterFacts* before(std::uint32_t code) const;
 
-  /// A way leads to the line with this known.
-  void enter(std::uint32_t code, const Letters& letters);
-  /// A call of the lines at `entry`, made in the lines that begin at `from`: turns `letters` into
-  /// what is known after it, false where nothing comes back yet.
-  bool call(std::uint32_t entry, std::uint32_t from, Letters& letters);
-  /// The `return` at `code` is reached.
-  void leave(std::uint32_t code, const Letters& letters);
+  /// Adds a path that reaches the line with this state.
+  void enter(std::uint32_t code, const LetterFacts& letters);
+  /// Calls the subroutine at `entry` from the block that begins at `from`: changes `letters` to the
+  /// state after it. Returns false if it has not returned yet.
+  bool call(std::uint32_t entry, std::uint32_t from, LetterFacts& letters);
+  /// Adds the state at the `return` at `code`.
+  void leave(std::uint32_t code, const LetterFacts& letters);
 
-  /// The next kept line from which to go on; `none` when all ways have been followed.
+  /// Takes the next kept line to evaluate; `none` at the fixed point.
   std::uint32_t take();
 
 private:
@@ -75,16 +75,16 @@ private:
     std::uint32_t visits = 0;
     bool reached = false;
     bool waiting = false;
-    Letters letters;
+    LetterFacts letters;
   };
   struct Routine {
     std::uint32_t entry = 0;
     LetterSet written = 0;
     bool returned = false;
-    Letters letters;                    ///< at its returns
-    std::uint32_t growths = 0;          ///< how often they became more
+    LetterFacts letters;                ///< at its returns
+    std::uint32_t growths = 0;          ///< how often the state grew
     std::vector<std::uint32_t> callers; ///< blocks
-    std::vector<std::uint8_t> lines;    ///< that run in it
+    std::vector<std::uint8_t> lines;    ///< lines of its body
     std::vector<std::uint32_t> callees; ///< entries
   };
 
@@ -94,15 +94,16 @@ private:
   LetterSet written_by(std::uint32_t code) const;
   void find_landmarks();
   void wait(std::uint32_t block);
-  /// Joins what is known on another way, the rougher the more often; whether that is news.
-  bool grow(Letters& into, const Letters& from, std::uint32_t visits) const;
+  /// Joins the state of another path into `into`, widening further with each visit. Returns true if
+  /// that changed it.
+  bool grow(LetterFacts& into, const LetterFacts& from, std::uint32_t visits) const;
 
   const Program& program_;
   const Flow& flow_;
   std::vector<std::uint32_t> block_of_; ///< by line of code, or none
   std::vector<Block> blocks_;
   std::vector<Routine> routines_;
-  std::vector<std::int32_t> landmarks_; ///< numbers at which growing ranges stop first, ascending
+  std::vector<std::int32_t> landmarks_; ///< numbers at which widened ranges stop first, ascending
   std::uint32_t first_waiting_ = 0;
 };
 

@@ -10,7 +10,7 @@
 namespace orb::compiler {
 namespace {
 
-/// A range in 64 bits; beyond 32 bits results wrap, so nothing is known of them.
+/// Narrows a 64-bit range; beyond 32 bits the result wraps, so nothing is known.
 Range narrow(std::int64_t lo, std::int64_t hi) {
   if (lo < std::numeric_limits<std::int32_t>::min() ||
       hi > std::numeric_limits<std::int32_t>::max())
@@ -58,7 +58,7 @@ Range shift_right(const Range& left, const Range& right) {
   return hull({left.lo >> from, left.lo >> to, left.hi >> from, left.hi >> to});
 }
 
-/// All bits below the highest set one, itself included.
+/// Sets all bits below the highest set one.
 std::int32_t fill(std::int32_t value) {
   auto bits = static_cast<std::uint32_t>(value);
   for (int n = 1; n < 32; n *= 2)
@@ -126,7 +126,7 @@ Range apply(spec::Function function, const Range& operand) {
     if (operand.lo >= 0)
       return operand;
     if (operand.lo == std::numeric_limits<std::int32_t>::min())
-      return {}; // the least number has no positive counterpart
+      return {}; // INT32_MIN has no positive counterpart
     if (operand.hi <= 0)
       return {-operand.hi, -operand.lo};
     return {0, std::max(-operand.lo, operand.hi)};
@@ -179,7 +179,7 @@ std::optional<std::int32_t> nearest_allowed(const spec::Parameter& parameter, st
   if (parameter.least != speed.least || parameter.greatest != speed.greatest)
     return std::nullopt;
   if (value < 0 && parameter.name == "speed")
-    return std::nullopt; // who writes that wants to drive back, not to stop
+    return std::nullopt; // a negative speed means reverse, not stop
   return std::clamp(value, parameter.least, parameter.greatest);
 }
 

@@ -7,7 +7,7 @@
 
 namespace orb::compiler {
 
-// What an expression is, where it is one thing alone; parentheses do not count.
+// Matches simple expressions; parentheses are ignored.
 
 inline const Node& bare(const Program& program, const Item& item) {
   auto n = item.value;
@@ -16,13 +16,13 @@ inline const Node& bare(const Program& program, const Item& item) {
   return program.nodes[n];
 }
 
-/// The number that is written there.
+/// The literal number.
 inline std::optional<std::int32_t> number_in(const Program& program, const Item& item) {
   const auto& node = bare(program, item);
   return node.kind == NodeKind::Number && !node.overflow ? std::optional(node.value) : std::nullopt;
 }
 
-/// The number that is written there, below 0, too: as `-5` or `0 - 5`.
+/// The literal number, including negative ones such as `-5` or `0 - 5`.
 inline std::optional<std::int32_t> constant_in(const Program& program, const Item& item) {
   if (const auto number = number_in(program, item))
     return number;
@@ -45,13 +45,13 @@ inline std::optional<spec::Variable> sensor_in(const Program& program, const Ite
                                        : std::nullopt;
 }
 
-/// The letter that is read there, 0 for A.
+/// The letter, 0 for A.
 inline std::optional<std::uint8_t> letter_in(const Program& program, const Item& item) {
   const auto& node = bare(program, item);
   return node.kind == NodeKind::Letter ? std::optional(node.what) : std::nullopt;
 }
 
-/// All nodes of an expression; none of any other item.
+/// All nodes of an expression; empty for any other item.
 inline std::span<const Node> nodes_of(const Program& program, const Item& item) {
   if (item.kind != ItemKind::Expression && item.kind != ItemKind::Character)
     return {};
@@ -65,12 +65,12 @@ constexpr spec::Relation mirrored(spec::Relation relation) {
   return relation == spec::Relation::Greater ? spec::Relation::Less : relation;
 }
 
-/// `sensor relation number`, whichever side either is written on.
+/// A test `sensor relation number`, with the sides in either order.
 struct SensorTest {
   spec::Variable sensor;
   spec::Relation relation;
   std::int32_t number;
-  const Item* at; ///< where the number is written
+  const Item* at; ///< the number's item
 };
 
 inline std::optional<SensorTest> sensor_test(const Program& program, const Comparison& comparison) {

@@ -8,13 +8,13 @@
 
 namespace orb::compiler {
 
-/// A place that sets a letter.
+/// A place that assigns a letter.
 struct Setting {
   std::uint32_t code = none;   ///< its line of code
-  const Item* value = nullptr; ///< what `let` sets it to; null for `for`, `read` and `input`
+  const Item* value = nullptr; ///< the value assigned by `let`; null for `for`, `read` and `input`
 };
 
-/// Of each letter the places that set it, by kind and then in the order of the text.
+/// For each letter, the places that assign it, by kind and then in text order.
 using Settings = std::array<std::vector<Setting>, most_letters>;
 
 inline Settings read_settings(const Program& program, const Flow& flow) {

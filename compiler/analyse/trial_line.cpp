@@ -12,7 +12,7 @@
 namespace orb::compiler {
 namespace {
 
-/// What the program itself brings about: it cannot be anything at any time.
+/// True if the program itself causes the value, so that it cannot be anything at any time.
 bool is_brought_about(const spec::VariableInfo& row) {
   return row.unit == "ms" || row.unit == "cm" || row.variable == spec::Variable::Speed;
 }
@@ -225,7 +225,7 @@ void TrialLine::input(const InputView& input) {
     check_value(*input.milliseconds, row.word, row.parameter_slots[0]);
   if (input.fallback != nullptr)
     value(*input.fallback);
-  const bool asks = input.fallback == nullptr; // else there may be nobody who answers
+  const bool asks = input.fallback == nullptr; // otherwise there may be nobody to answer
   set(input.variable, {{}, asks, asks});
 }
 

@@ -8,7 +8,7 @@
 namespace orb::compiler {
 namespace {
 
-/// FNV-1a, a word at a time.
+/// FNV-1a on 64-bit words.
 class Mixer {
 public:
   void add(std::uint64_t word) {
@@ -28,7 +28,7 @@ public:
   std::uint64_t value() const { return value_; }
 
 private:
-  std::uint64_t value_ = 0xcbf29ce484222325; ///< of FNV-1a: where it begins
+  std::uint64_t value_ = 0xcbf29ce484222325; ///< the FNV-1a offset basis
 };
 
 } // namespace
@@ -85,7 +85,7 @@ TrialValue sum_of(spec::Operator op, const TrialValue& left, const TrialValue& r
   case spec::Operator::Add:
   case spec::Operator::Subtract: sum.dense = dense; break;
   case spec::Operator::Divide: sum.dense = dense && by_number; break;
-  case spec::Operator::Remainder: // of a turn at least
+  case spec::Operator::Remainder: // by a full turn or more
     sum.dense =
         dense && by_number &&
         std::int64_t{left.range.hi} - left.range.lo >= std::abs(std::int64_t{right.range.lo}) - 1;

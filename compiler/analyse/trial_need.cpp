@@ -33,7 +33,7 @@ public:
   }
 
 private:
-  /// An expression of letters that must be within some bounds, or not 0.
+  /// An expression of letters that must stay within bounds, or not be 0.
   struct Suspect {
     std::uint32_t root;
     std::int64_t least;
@@ -41,13 +41,13 @@ private:
     bool divides;
   };
 
-  /// What sets a letter.
+  /// An assignment to a letter.
   struct Set {
     const StatementNode* statement;
     std::uint32_t letter;
   };
 
-  /// False where something is used of which nothing is known here.
+  /// Collects suspects. Returns false if an expression uses something that is not tracked here.
   bool collect() {
     for (const auto& node : program_.nodes) {
       const auto index = static_cast<std::uint32_t>(&node - program_.nodes.data());
@@ -103,7 +103,7 @@ private:
                        [](const Node& node) { return node.kind == NodeKind::Letter; });
   }
 
-  /// Finds the letters that count, and what sets them.
+  /// Finds the letters that suspects depend on, and their assignments.
   void prepare() {
     ranges_.assign(std::numeric_limits<std::uint8_t>::max() + std::size_t{1}, Range::only(0));
     counts_.assign(ranges_.size(), 0);
@@ -140,7 +140,7 @@ private:
     return more;
   }
 
-  /// Joins all that the letters are set to until nothing is new.
+  /// Joins all assigned values until nothing changes.
   void follow() {
     constexpr int patience = 2;
     std::vector<std::int32_t> landmarks;
@@ -181,7 +181,8 @@ private:
     const auto begin = compute(loop.start.value);
     const auto counted = join(begin, compute(loop.end.value));
     const auto step = loop.step != nullptr ? compute(loop.step->value) : Range::only(1);
-    return join(counted, apply(spec::Operator::Add, counted, step)); // it is past its end, too
+    return join(counted, apply(spec::Operator::Add, counted, step)); // the end value plus a step
+                                                                     // occurs, too
   }
 
   const Range& compute(std::uint32_t root) {
@@ -212,7 +213,7 @@ private:
   std::vector<Suspect> suspects_;
   std::vector<Set> sets_;
   std::vector<Range> ranges_;        ///< by letter
-  std::vector<std::uint8_t> counts_; ///< by letter, whether a suspect depends on it
+  std::vector<std::uint8_t> counts_; ///< by letter: true if a suspect depends on it
   std::vector<Range> known_;         ///< by node
 };
 

@@ -5,8 +5,8 @@
 
 namespace orb::compiler {
 
-/// Whether some value may stop the program, as far as can be seen from all that its letters are
-/// set to, in whatever order. A trial of other programs would find nothing.
+/// True if some value may stop the program, judged by all assignments in any order. If false, a
+/// trial would find nothing and can be skipped.
 bool needs_trial(const Program& program, const Flow& flow);
 
 } // namespace orb::compiler

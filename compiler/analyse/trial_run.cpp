@@ -15,13 +15,15 @@
 namespace orb::compiler {
 namespace {
 
-/// Who decides where a program goes.
+/// The cause of a decision.
 enum class Decider : std::uint8_t {
-  World,   ///< whoever shakes the ball, or chance: in any way, at any time
-  Program, ///< what it brings about itself: a place, a speed
-  Clock,   ///< a timer, which comes to its end
+  World,   ///< a person or chance: either way, at any time
+  Program, ///< a value caused by the program: a place, a speed
+  Clock,   ///< a timer, which runs out
 };
 
+/// Executes a program on all of its paths. Large because each kind of statement has its own member,
+/// and so has each way in which paths part and meet.
 class TrialRun : private TrialLine {
 public:
   TrialRun(const Program& program, const Flow& flow) : TrialLine(program, flow) {}
@@ -35,21 +37,22 @@ public:
         const auto from = now_.at;
         go();
         if (now_.at <= from && !is_new())
-          break; // it does the same for ever, or what another way did
+          break; // an endless loop, or the same as another path
       }
     }
     return std::move(trial_);
   }
 
 private:
-  static constexpr std::uint32_t most_lines = 4000; ///< on all ways together
-  static constexpr std::size_t most_ways = 64;      ///< that wait to be followed
+  static constexpr std::uint32_t most_lines = 4000; ///< on all paths together
+  static constexpr std::size_t most_ways = 64;      ///< pending paths
   static constexpr std::uint32_t most_probed =
-      24; ///< lines of a loop that only waits, of ways that meet
-  static constexpr std::uint32_t most_joined = 16; ///< rounds in which both ways go on as one
-  static constexpr std::size_t most_targets = 8;   ///< of an `on` that are followed
+      24; ///< lookahead in lines, for wait loops and paths that meet
+  static constexpr std::uint32_t most_joined = 16; ///< rounds in which both paths continue joined
+  static constexpr std::size_t most_targets = 8;   ///< targets of an `on` that are followed
 
-  /// Whether nobody was here before with the same known: who comes back, and who parts from here.
+  /// True if no path was here before with the same state: when a path returns, and when paths
+  /// split.
   bool is_new() { return met_.insert(now_.hash()).second; }
   bool parts_anew() { return parted_.insert(now_.hash()).second; }
 
@@ -67,7 +70,8 @@ private:
       now_.at = none;
   }
 
-  /// The line of code that comes next; `none` where this way is over, or others go on in its place.
+  /// Executes a line and returns the next line of code; `none` if this path ends or others continue
+  /// in its place.
   std::uint32_t whole(const StatementNode& statement) {
     if (statement.error)
       return none;
@@ -84,7 +88,7 @@ private:
     case spec::Form::LoopEnd: return end_loop(program_.as<NextView>(statement));
     case spec::Form::Branch: return jump(statement, 0);
     case spec::Form::IndexedBranch: return choose(statement);
-    case spec::Form::Conditional: return none; // within another one
+    case spec::Form::Conditional: return none; // nested in another one
     case spec::Form::Assignment:
     case spec::Form::Output:
     case spec::Form::Entry:
@@ -109,11 +113,11 @@ private:
       stop(rules::ZeroStep, loop.step->span, texts::StepIsZero());
     if (!by.constant() || stopped_)
       return none;
-    // The innermost loop may begin again.
+    // A `for` on the innermost loop's variable restarts that loop.
     if (!now_.loops.empty() && now_.loops.back().letter == letter)
       now_.loops.pop_back();
     if (now_.loops.size() == static_cast<std::size_t>(spec::value_of(spec::Limit::ForDepth)))
-      return none; // which is said elsewhere
+      return none; // reported by another rule
     bind(loop.end);
     now_.loops.push_back({letter, line_ + 1, by.lo, end});
     return line_ + 1;
@@ -143,7 +147,7 @@ private:
     return line_ + 1;
   }
 
-  /// The end of the loop is not known.
+  /// Splits at a `next` whose end value is unknown.
   std::uint32_t leave_or_not(spec::Relation over) {
     const auto& open = now_.loops.back();
     const auto counter = now_.letters[open.letter].range;
@@ -167,7 +171,7 @@ private:
     return program_.items_of(program_.statements[flow_.code[code].statement]).front().span;
   }
 
-  /// To the line that the item names, by its place among those of the statement.
+  /// Jumps to the line named by the `nth` item of the statement.
   std::uint32_t jump(const StatementNode& statement, std::uint32_t nth) {
     for (const auto& way : flow_.jumps_of(flow_.code[line_])) {
       if (way.item != statement.items_begin + nth || way.to == none)
@@ -175,7 +179,7 @@ private:
       if (!way.call)
         return way.to;
       if (now_.calls.size() == static_cast<std::size_t>(spec::value_of(spec::Limit::GosubDepth)))
-        return none; // which is said elsewhere
+        return none; // reported by another rule
       now_.calls.push_back(line_ + 1);
       return way.to;
     }
@@ -184,7 +188,7 @@ private:
 
   std::uint32_t come_back() {
     if (now_.calls.empty())
-      return none; // which is said elsewhere
+      return none; // reported by another rule
     const auto at = now_.calls.back();
     now_.calls.pop_back();
     return at;
@@ -257,13 +261,13 @@ private:
     const auto next = part(std::move(ways), decider);
     if (next != none || probing_ || !meet || here.decision != none || runs_[line_] > most_joined)
       return next;
-    now_ = here; // whatever was decided: what is wrong then is certain
+    now_ = here; // a fault here is certain, whatever the decision
     return join_branches(*yes, no);
   }
 
   static Decider decider_of(bool driven) { return driven ? Decider::Program : Decider::World; }
 
-  /// Whether a condition is about timers alone.
+  /// True if a condition depends only on timers.
   bool waits_for_time(const StatementNode& statement) const {
     bool timers = false;
     for (auto n = statement.nodes_begin; n < statement.nodes_end; ++n) {
@@ -285,7 +289,7 @@ private:
     return branch == nullptr ? line_ + 1 : step(*branch);
   }
 
-  /// Both ways lead to the next line, and nobody knows whether there are two.
+  /// Joins both branches where both lead to the next line and either may be impossible.
   std::uint32_t join_branches(const StatementNode& yes, const StatementNode* no) {
     const bool quiet = std::exchange(quiet_, true);
     const auto before = now_;
@@ -298,13 +302,13 @@ private:
     return line_ + 1;
   }
 
-  /// Whether the line below comes next, whatever happens.
+  /// True if the statement always falls through.
   static bool goes_on(const StatementNode& statement) {
     const auto after = spec::info(statement.kind).after;
     return !statement.error && (after == spec::After::Falls || after == spec::After::Waits);
   }
 
-  /// Whether a statement leaves all that is known as it is.
+  /// True if a statement leaves the state unchanged.
   static bool is_idle(const StatementNode& statement) {
     const auto form = spec::info(statement.kind).form;
     return form == spec::Form::Output ||
@@ -315,10 +319,10 @@ private:
     const auto first = truth(condition.first);
     if (condition.joint == nullptr)
       return first;
-    const bool quiet = std::exchange(quiet_, true); // it need not be looked at
+    const bool quiet = std::exchange(quiet_, true); // the second comparison may be skipped
     const auto second = truth(*condition.second);
     quiet_ = quiet;
-    const bool decides = condition.joint->kind == ItemKind::Or; // as soon as one is this
+    const bool decides = condition.joint->kind == ItemKind::Or; // one such result decides
     if (first == decides || second == decides)
       return decides;
     return first && second ? std::optional(!decides) : std::nullopt;
@@ -335,8 +339,7 @@ private:
     return std::nullopt;
   }
 
-  /// Whether a comparison that was just computed can be answered in both ways, or its answer is
-  /// known.
+  /// True if the comparison just computed can go both ways, or its result is known.
   bool is_open(const Comparison& comparison) const {
     const auto relation = static_cast<spec::Relation>(comparison.relation.value);
     const auto& left = known_[comparison.left.value];
@@ -352,15 +355,15 @@ private:
     return known_[comparison.left.value].driven || known_[comparison.right.value].driven;
   }
 
-  /// Whether what the program itself brings about has decided here before, on this way: how often
-  /// it can do so nobody knows.
+  /// True if a value caused by the program has already decided at this line on this path. It is
+  /// unknown how often it can do so.
   bool is_settled(bool driven) const {
     return driven && std::find(now_.driven.begin(), now_.driven.end(), line_) != now_.driven.end();
   }
 
-  /// Narrows what is compared to where the condition holds or not; false where that cannot be.
+  /// Narrows the operands to where the condition holds or not; returns false if that is impossible.
   bool assume(const IfView& condition, Holds holds) {
-    static_cast<void>(truth(condition)); // computed anew
+    static_cast<void>(truth(condition)); // sets known_ to what holds on this path
     if (condition.joint == nullptr)
       return assume(condition.first, holds);
     if ((condition.joint->kind == ItemKind::And) != (holds == Holds::Yes)) { // either of the two
@@ -392,7 +395,7 @@ private:
       bind(comparison.left);
       bind(comparison.right);
     }
-    // An inner value that it is not leaves a gap.
+    // Excluding an inner value leaves a gap.
     const bool equal = (relation == spec::Relation::Equal) == (holds == Holds::Yes);
     const bool names = relation == spec::Relation::Equal || relation == spec::Relation::NotEqual;
     if (names && !equal && *left_where == left)
@@ -420,9 +423,9 @@ private:
     way.decision = static_cast<std::uint32_t>(trial_.decisions.size() - 1);
   }
 
-  /// Goes on along each of the ways, but those that come back here with nothing changed: there the
-  /// program waits for another one, which comes where it waits for time. Ways that meet soon are
-  /// one.
+  /// Continues on each path, except on those that return here with the state unchanged: there the
+  /// program waits for another path. When waiting for a timer, that path is certain. Paths that
+  /// soon meet are merged.
   std::uint32_t part(std::vector<Moment> ways, Decider decider) {
     if (probing_ || !parts_anew())
       return none;
@@ -453,8 +456,8 @@ private:
     return none;
   }
 
-  /// Follows a way for a few lines, as long as it is the only one and `goes_on` wants more; what it
-  /// does there is not said.
+  /// Follows a path for a few lines, while it does not split and `goes_on` returns true, without
+  /// reporting faults.
   template <typename GoesOn>
   void probe(const Moment& way, const GoesOn& goes_on) {
     const auto here = std::exchange(now_, way);
@@ -478,12 +481,12 @@ private:
     return same;
   }
 
-  /// Where all ways lead to the same line with the same known.
+  /// Finds a state that all paths reach.
   std::optional<Moment> meeting_of(const std::vector<Moment>& ways) {
     std::optional<Moment> meeting;
     if (ways.size() < 2)
       return meeting;
-    std::vector<std::uint64_t> places; // of the first way
+    std::vector<std::uint64_t> places; // states of the first path
     probe(ways.front(), [&] {
       places.push_back(now_.hash());
       return true;
@@ -494,7 +497,7 @@ private:
         const auto at = std::find(places.begin(), places.end(), now_.hash());
         if (at == places.end())
           return true;
-        places.erase(places.begin(), at); // the others have to meet there or later
+        places.erase(places.begin(), at); // the other paths must meet here or later
         found = now_;
         return false;
       });
@@ -505,10 +508,10 @@ private:
     return meeting;
   }
 
-  std::deque<Moment> ways_;                  ///< that have still to be followed
-  std::uint32_t lines_ = 0;                  ///< how many have run
-  std::unordered_set<std::uint64_t> met_;    ///< hashes of moments to which somebody came back
-  std::unordered_set<std::uint64_t> parted_; ///< and of those from which ways parted
+  std::deque<Moment> ways_;                  ///< paths still to follow
+  std::uint32_t lines_ = 0;                  ///< lines executed
+  std::unordered_set<std::uint64_t> met_;    ///< hashes of states that a path returned to
+  std::unordered_set<std::uint64_t> parted_; ///< hashes of states at which paths split
 };
 
 } // namespace

@@ -10,31 +10,31 @@
 
 namespace orb::compiler {
 
-/// A value that decides where a program goes, and that nobody knows before it runs.
+/// A value, unknown before the run, that decides a branch.
 struct Decision {
-  Span span; ///< empty where nothing is written that could be pointed at
+  Span span; ///< empty if there is no text to point at
   Holds holds = Holds::Yes;
-  std::uint32_t before = none; ///< the one before, an index into Trial::decisions
+  std::uint32_t before = none; ///< the previous one, an index into Trial::decisions
 };
 
-/// What stops a program on one of its ways.
+/// A fault that stops a program on one of its paths.
 struct TrialFault {
   const Rule* rule = nullptr;
   Span span;
   Message message;
   Message help;
-  std::uint32_t decision = none; ///< the last one on the way; none: there is no other way
-  bool later = false;            ///< the line has run through before
+  std::uint32_t decision = none; ///< the last one on the path; none: it is the only path
+  bool later = false;            ///< an earlier pass of the line succeeded
 };
 
 struct Trial {
-  std::vector<TrialFault> faults; ///< the first of each place
+  std::vector<TrialFault> faults; ///< the first at each place
   std::vector<Decision> decisions;
 };
 
-/// Runs a program from its first line, for a while: along both ways where a sensor or chance
-/// decides, and no further where nobody can say whether there are two. A loop that only waits for a
-/// sensor decides nothing: the program goes on after it, or never.
+/// Executes a program symbolically from its first line, within limits. Follows both branches where
+/// a sensor or chance decides, and stops where it is unknown if both are possible. A loop that only
+/// waits for a sensor decides nothing: the program continues after it or never.
 Trial try_program(const Program& program, const Flow& flow);
 
 } // namespace orb::compiler

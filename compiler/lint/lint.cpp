@@ -15,7 +15,7 @@
 namespace orb::compiler {
 namespace {
 
-/// The line that holds byte `room` of the image: the first that does not fit.
+/// The line with byte `room` of the image, the first that does not fit.
 std::uint32_t line_at_byte(const Program& program, const Flow& flow, std::int32_t room) {
   std::int32_t size = 1;
   for (const auto& code : flow.code) {
@@ -34,7 +34,7 @@ void check_size(const Program& program, const Flow& flow, const Target& target,
   const auto oldest = spec::value_of(spec::Limit::RamBytesUntil146);
   const bool in_ram = target.area == Area::Ram;
   const bool may_be_old = in_ram && !target.ram_bytes;
-  // The image adds a blank and an end to a line at most.
+  // The image adds at most a space and a line ending per line.
   const auto most = static_cast<std::int32_t>(program.text.size() + 2 * program.lines.size());
   if (most < (may_be_old ? std::min(room, oldest) : room))
     return;
@@ -52,13 +52,13 @@ void check_size(const Program& program, const Flow& flow, const Target& target,
   }
 }
 
-/// The line and the place where it ends.
+/// The line including its line ending.
 Span with_end(Span line) {
   return {line.begin, line.end + 1};
 }
 
-/// What a comment `' orb: allow RULE` names is left out on its line, or on the next one when it
-/// stands alone.
+/// Removes the findings allowed by a comment `' orb: allow RULE` on the same line, or on the line
+/// above if it is alone there.
 void silence(const Program& program, Findings& findings) {
   std::vector<AllowComment> comments;
   for (std::size_t i = 0; i < program.lines.size(); ++i) {
@@ -76,10 +76,10 @@ void silence(const Program& program, Findings& findings) {
     orb::silence(program.text, comments, rules::all(), rules::UnknownRule, findings.all());
 }
 
-/// A warning where an error begins, and one of a byte in a word that is none, is about the same
-/// cause and says less.
+/// Drops a warning where an error begins, and one about a byte inside an unknown word: it has the
+/// same cause and says less.
 void drop_doubles(std::vector<Diagnostic>& findings) {
-  std::map<std::uint32_t, std::uint32_t> errors; // where they begin and end
+  std::map<std::uint32_t, std::uint32_t> errors; // from begin to end
   for (const auto& d : findings)
     if (d.severity == Severity::Error)
       errors.emplace(d.span.begin,
@@ -94,7 +94,7 @@ void drop_doubles(std::vector<Diagnostic>& findings) {
   });
 }
 
-/// Tells each finding the number of its line. How lines end is said of the whole file.
+/// Adds the line number to each finding, except for line endings, which concern the whole file.
 void place(const Program& program, std::vector<Diagnostic>& findings) {
   for (auto& d : findings) {
     const auto next = std::upper_bound(
@@ -105,7 +105,7 @@ void place(const Program& program, std::vector<Diagnostic>& findings) {
   }
 }
 
-/// What a program whose jumps are all known does.
+/// Runs the passes that need to know all jumps.
 void lint_ways(const Program& program, const Flow& flow, Findings& findings) {
   lint_flow(program, flow, findings);
   lint_intent(program, flow, findings);

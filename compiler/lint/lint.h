@@ -14,29 +14,29 @@ namespace orb::compiler {
 
 using spec::Area;
 
-/// The robot that a program is meant for.
+/// The robot that a program is written for.
 struct Target {
   spec::BasicVersion version = spec::default_basic_version;
   Area area = Area::Ram;
-  /// Bytes of the RAM area: 1024, 3072 or 4096. Nothing means: the most that the version has, with
-  /// a warning above what every robot has.
+  /// Size of the RAM area: 1024, 3072 or 4096 bytes. Nothing: the most of this version, with a
+  /// warning above the size that every robot has.
   std::optional<std::int32_t> ram_bytes;
-  /// Which robot drives; nothing: any.
+  /// The robot that drives; nothing: any.
   std::optional<spec::Robot> robot = {};
 };
 
-/// The bytes that `target` offers for a program, final NUL included.
+/// The bytes that `target` has for a program, including the final NUL.
 std::int32_t area_bytes(const Target& target);
 
-/// Everything that is to be said about a program, in the order of its text; empty for a program
-/// that is fine. What a comment `' orb: allow RULE` silences is left out.
+/// Returns all findings about a program, in text order. Findings silenced by a comment `' orb:
+/// allow RULE` are left out.
 std::vector<Diagnostic> lint(const Program& program, const Target& target);
 
-/// Of these what the program does that cannot work or can hardly be meant, however it is written:
-/// what is said of a structured program, too, once it is lines whose words are its own.
+/// Of these, only findings about what the program does, independent of notation. Also applied to
+/// structured programs, whose compiled lines have words of their own.
 std::vector<Diagnostic> lint_meaning(const Program& program, const Target& target);
 
-/// Of these only what the robot does not have.
+/// Of these, only features that the robot lacks.
 std::vector<Diagnostic> robot_findings(const Program& program, spec::Robot robot);
 
 } // namespace orb::compiler

@@ -5,7 +5,7 @@
 namespace orb::compiler {
 namespace {
 
-/// What the firmware that a program is meant for does not know yet.
+/// Reports features that the target firmware does not have yet.
 class AgePass {
 public:
   AgePass(const Program& program, const Target& target, Findings& findings)
@@ -31,7 +31,7 @@ private:
       check_timer(program_.as<LetView>(statement));
   }
 
-  /// Before August 2012 it had two values.
+  /// Before August 2012 it took two values.
   void check_goroll(const StatementNode& statement) {
     const auto& row = spec::info(statement.kind);
     const auto values = program_.items_of(statement);

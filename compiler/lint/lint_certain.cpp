@@ -14,7 +14,7 @@ bool meets(Span a, Span b) {
   return a.begin < b.end && b.begin < a.end;
 }
 
-/// Whether a sum that grows without limit is of a letter that stands at `span`.
+/// True if the letter of an unbounded sum appears at `span`.
 bool is_about(const Program& program, const Diagnostic& grown, Span span) {
   return std::any_of(
       program.statements.begin(), program.statements.end(), [&](const StatementNode& statement) {
@@ -29,7 +29,7 @@ bool is_about(const Program& program, const Diagnostic& grown, Span span) {
       });
 }
 
-/// Whether a finding warns of what happens for certain there.
+/// True if a finding warns of this certain fault.
 bool warns_of(const Program& program, const Diagnostic& d, const TrialFault& fault) {
   if (d.rule == &rules::HeadingGrows || d.rule == &rules::ValueGrows)
     return is_about(program, d, fault.span);
@@ -38,7 +38,7 @@ bool warns_of(const Program& program, const Diagnostic& d, const TrialFault& fau
           d.rule == &rules::MayLeaveRange || d.rule == &rules::IndexBeforeY);
 }
 
-/// Says the tests on which the way to a fault depends, the last one first.
+/// Adds the tests that lead to a fault as notes, the last one first.
 void add_ways(Diagnostic& d, const Trial& trial, std::uint32_t decision) {
   constexpr std::size_t most = 2;
   for (; decision != none && d.notes.size() < most; decision = trial.decisions[decision].before)
@@ -50,7 +50,8 @@ void add_ways(Diagnostic& d, const Trial& trial, std::uint32_t decision) {
                one.holds == Holds::Yes ? texts::WhenThisHolds() : texts::WhenThisDoesNotHold());
 }
 
-/// Says a fault unless something at its place says as much; there is no other way to go.
+/// Reports a fault on the only path, unless a finding at its place already covers it: that finding
+/// becomes an error.
 void add_certain(const Program& program, const TrialFault& fault, Findings& findings) {
   bool warned = false;
   for (auto& d : findings.all())
@@ -62,7 +63,7 @@ void add_certain(const Program& program, const TrialFault& fault, Findings& find
     findings.add(*fault.rule, fault.span, fault.message, fault.help).severity = Severity::Error;
 }
 
-/// The same where other ways lead past it.
+/// The same for a fault that other paths avoid.
 void add_possible(const Program& program, const TrialFault& fault, const Trial& trial,
                   Findings& findings) {
   const auto& all = findings.all();
@@ -89,7 +90,7 @@ void lint_certain(const Program& program, const Flow& flow, Findings& findings) 
     });
     if (said)
       continue;
-    // The other rules are about lines that never run through.
+    // The other rules concern lines that fail on their first pass.
     const bool runs_first = fault.later && fault.rule != &rules::MayLeaveRange;
     if (fault.decision == none && !runs_first)
       add_certain(program, fault, findings);

@@ -8,6 +8,8 @@
 namespace orb::compiler {
 namespace {
 
+/// Finds unreachable lines, faulty subroutines and busy loops. Large because each of these rules
+/// has its own members, and all of them share the marks of the reachable lines.
 class FlowRules {
 public:
   FlowRules(const Program& program, const Flow& flow, Findings& findings)
@@ -27,10 +29,10 @@ public:
   }
 
 private:
-  // What is known of a line:
+  // The state of a line:
   static constexpr std::uint8_t reached = 1;
-  static constexpr std::uint8_t main = 2;   ///< can run while no subroutine is open
-  static constexpr std::uint8_t inside = 4; ///< can run as part of a subroutine
+  static constexpr std::uint8_t main = 2;   ///< can run outside any subroutine
+  static constexpr std::uint8_t inside = 4; ///< can run inside a subroutine
 
   const StatementNode& statement(std::uint32_t code) const {
     return program_.statements[flow_.code[code].statement];
@@ -52,8 +54,8 @@ private:
 
   enum class Calls : std::uint8_t { Enter, StepOver };
 
-  /// Marks the lines that can follow `start`, and adds to `found_` those of them that jump and were
-  /// not marked before.
+  /// Marks the lines reachable from `start`, and adds those that jump and were unmarked to
+  /// `found_`.
   void spread(std::uint32_t start, std::uint8_t mark, std::vector<std::uint8_t>& marks,
               Calls calls) {
     open_.assign(1, start);
@@ -78,11 +80,11 @@ private:
   void mark_reached() {
     marks_.assign(size_, 0);
     spread(0, main | reached, marks_, Calls::StepOver);
-    for (std::size_t i = 0; i < found_.size(); ++i) // which grows
+    for (std::size_t i = 0; i < found_.size(); ++i) // the loop extends it
       for (const auto& jump : flow_.jumps_of(flow_.code[found_[i]]))
         if (jump.call)
           spread(jump.to, reached, marks_, Calls::Enter);
-    // A line that is named as a wake-up line is an entry of its own.
+    // The literal wake-up line of a `sleep` is another entry point.
     for (const auto& sleep : flow_.all(spec::Statement::Sleep)) {
       const auto view = program_.as<SleepView>(program_.statements[sleep.statement]);
       const auto& root = program_.nodes[view.line.value];
@@ -125,7 +127,7 @@ private:
     check_recursion();
   }
 
-  /// Whether a subroutine calls one.
+  /// True if a subroutine calls another one.
   bool calls_nest() const {
     return std::any_of(flow_.jumps.begin(), flow_.jumps.end(),
                        [&](const Flow::Jump& jump) { return jump.call && is(inside, jump.from); });
@@ -166,7 +168,7 @@ private:
                       texts::PartOfSubroutine(number_of(jump.to)), texts::CallWithGosub());
   }
 
-  /// Offers a line in front of a line of code, where there is a number for it.
+  /// Offers a line above a line of code, if a line number is free.
   void add_above(Diagnostic& d, std::uint32_t code, std::string_view word) const {
     const auto below = number_of(code);
     const auto above = number_of(code - 1);
@@ -179,8 +181,8 @@ private:
     d.fix = single_fix(d.help, {at, at}, line + "\n", Safety::Unsafe);
   }
 
-  /// Subroutines that go on in the next one, for lack of a `return`. Two may share an end on
-  /// purpose: those stand close together, or the first only sets values for the second.
+  /// Finds subroutines that fall into the next one because `return` is missing. Two may share an
+  /// end on purpose: then they are close together, or the first only sets values for the second.
   void check_runs_on() {
     for (std::size_t r = 1; r < routines_.size(); ++r) {
       const auto first = routines_[r - 1];
@@ -196,7 +198,7 @@ private:
     }
   }
 
-  /// Whether the line numbers leave more room before a line than between those above it.
+  /// True if the gap in line numbers before `next` is larger than any gap above it.
   bool stands_apart(std::uint32_t first, std::uint32_t next) const {
     std::uint32_t step = usual_step;
     for (auto i = first + 1; i < next; ++i)
@@ -204,7 +206,7 @@ private:
     return number_of(next) - number_of(next - 1) > step;
   }
 
-  /// Whether lines do something besides setting values, and lead nowhere else.
+  /// True if the lines do more than set values, and do not jump away.
   bool acts_alone(std::uint32_t first, std::uint32_t next) const {
     bool acts = false;
     for (auto i = first; i < next; ++i) {
@@ -223,27 +225,27 @@ private:
     return acts;
   }
 
-  /// Calls of lines from which no way leads to a `return`.
+  /// Finds calls of lines that never reach a `return`.
   void check_comes_back() {
     if (std::all_of(routines_.begin(), routines_.end(),
                     [&](std::uint32_t entry) { return falls_to_return(entry); }))
-      return; // as nearly always
+      return; // the usual case
     const auto back = lines_that_return();
     for (const auto& jump : flow_.jumps)
       if (jump.call && jump.to != none && is(reached, jump.from) && back[jump.to] == 0)
         add_never_returns(jump.from, jump);
   }
 
-  /// Whether a `return` is met without taking any jump.
+  /// True if the lines fall through to a `return` without a jump.
   bool falls_to_return(std::uint32_t at) const {
     while (!flow_.code[at].ends && flow_.code[at].falls && at + 1 < size_)
       ++at;
     return std::any_of(whole(at).begin(), whole(at).end(), is_return);
   }
 
-  /// The lines from which some way leads to a `return`, or to what may be one once corrected.
+  /// The lines that can reach a `return`, or a faulty statement that may become one.
   std::vector<std::uint8_t> lines_that_return() {
-    std::vector<std::uint32_t> begins(size_ + 1, 0); // of the lines that lead to a line
+    std::vector<std::uint32_t> begins(size_ + 1, 0); // of the predecessors of each line
     const auto each_next = [&](std::uint32_t i, auto visit) {
       const auto& code = flow_.code[i];
       for (const auto& jump : flow_.jumps_of(code))
@@ -285,7 +287,7 @@ private:
     const auto& end = statement(last);
     const bool ends = flow_.code[last].ends;
     if (ends && whole(from).size() > 1)
-      return; // ends the program on purpose, where something has gone wrong
+      return; // ends the program on purpose, after an error
     const auto number = number_of(last);
     findings_.add(rules::NeverReturns, program_.items[jump.item].span,
                   texts::LineNeverReturns(number_of(jump.to)),
@@ -305,13 +307,13 @@ private:
                        [&](const Flow::Place& place) { return marks[place.code] != 0; });
   }
 
-  /// The least number of calls that are open when a line runs. A `gosub` that already has four
-  /// above it on every way stops the program.
+  /// Computes the least call depth at each line. A `gosub` that is always called at depth four
+  /// stops the program.
   void check_depths() {
     constexpr std::uint8_t far = UINT8_MAX;
     constexpr auto most = static_cast<std::size_t>(spec::value_of(spec::Limit::GosubDepth));
     std::vector<std::uint8_t> least(size_, far);
-    std::vector<std::uint32_t> deeper; // where the lines of this depth call
+    std::vector<std::uint32_t> deeper; // calls from lines of this depth
     open_.assign(1, 0);
     for (std::uint8_t depth = 0; depth <= most; ++depth) {
       while (!open_.empty()) {
@@ -338,7 +340,7 @@ private:
           }
   }
 
-  /// Looks for subroutines that reach a call of themselves.
+  /// Finds recursive subroutines.
   void check_recursion() {
     if (routines_.size() > most_routines)
       return;
@@ -384,7 +386,7 @@ private:
 
   // ---- waiting
 
-  /// A `goto` back to a line, with no way out between and nothing that waits.
+  /// Finds a `goto` back to a line without an exit or a wait between.
   void check_busy_loops() {
     for (const auto& jump : flow_.jumps) {
       const auto& node = statement(jump.from);
@@ -432,22 +434,22 @@ private:
     return false;
   }
 
-  /// Where people let subroutines begin, and how far apart they number lines.
+  /// Conventions: subroutines begin at round numbers, and line numbers grow by ten.
   static constexpr std::uint32_t round_number = 100;
   static constexpr std::uint32_t usual_step = 10;
 
-  /// Beyond these the checks that look at pairs of lines are left out: no area of the robot holds
-  /// such a program, and a linter must not take minutes over it.
+  /// Above these limits, pairwise checks are skipped: no robot has room for such a program, and a
+  /// linter must not take minutes.
   static constexpr std::size_t most_routines = 256;
 
   const Program& program_;
   const Flow& flow_;
   Findings& findings_;
   std::uint32_t size_;
-  std::vector<std::uint32_t> routines_; ///< lines that something calls, ascending
-  std::vector<std::uint32_t> found_;    ///< by spread()
-  std::vector<std::uint32_t> open_;     ///< of spread(): where to go on
-  std::vector<std::uint8_t> marks_;     ///< of each line
+  std::vector<std::uint32_t> routines_; ///< called lines, ascending
+  std::vector<std::uint32_t> found_;    ///< result of spread()
+  std::vector<std::uint32_t> open_;     ///< work list of spread()
+  std::vector<std::uint8_t> marks_;     ///< by line
 };
 
 } // namespace

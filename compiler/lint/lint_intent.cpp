@@ -16,7 +16,7 @@ namespace {
 
 using spec::Statement;
 
-/// What a statement shows until the next one of its kind.
+/// The lasting effect of a statement until the next one of its kind.
 enum class Shows : std::uint8_t { Nothing, Colour, BackLed, Roll };
 
 Shows shows(Statement kind) {
@@ -27,7 +27,7 @@ Shows shows(Statement kind) {
   return kind == Statement::Goroll ? Shows::Roll : Shows::Nothing;
 }
 
-/// What is said of each.
+/// The messages for each effect.
 struct ShowsTexts {
   const Row<>& never_seen;
   const Row<>& only_last;
@@ -41,22 +41,22 @@ ShowsTexts texts_of(Shows what) {
   return {texts::LightNeverSeen, texts::OnlyLastColour, texts::NextLight};
 }
 
-/// What else drives or colours the ball, or stops it.
+/// True if the statement may drive, colour or stop the ball in an unknown way.
 bool is_foreign_hand(Statement kind) {
   return kind == Statement::Raw || kind == Statement::Macrun || kind == Statement::Mackill;
 }
 
-/// Whether the ball moves at a place, whatever way led there.
+/// The motion of the ball at a line, over all paths.
 struct Motion {
   enum class Kind : std::uint8_t {
     Unreached,
     Rests,
-    Drives, ///< since `roll`
-    Coasts, ///< `roll` told it speed 0 while it drove, without braking
+    Drives, ///< after `roll`
+    Coasts, ///< after `roll` with speed 0 while driving: it rolls on without braking
     Unknown,
   };
   Kind kind = Kind::Unreached;
-  std::uint32_t roll = none; ///< a line of code
+  std::uint32_t roll = none; ///< the line of code
 
   friend bool operator==(Motion, Motion) = default;
 };
@@ -69,8 +69,9 @@ Motion join(Motion a, Motion b) {
   return {Motion::Kind::Unknown};
 }
 
-/// Programs that run through and are still not what was meant: colours and rolls that nobody can
-/// see, a ball that is left driving.
+/// Finds programs that run without an error but not as intended: colours and rolls that nobody can
+/// see, a ball that is left driving. Large because it makes three searches: for what is never seen,
+/// what drives on, and what grows without limit.
 class IntentPass {
 public:
   IntentPass(const Program& program, const Flow& flow, Findings& findings)
@@ -94,18 +95,18 @@ private:
 
   // ---- what is never seen
 
-  /// What becomes of something shown.
+  /// What happens to a visible effect.
   struct Fate {
     enum class Kind : std::uint8_t { Seen, Replaced, Ends } kind = Kind::Seen;
     std::uint32_t at = none; ///< the line of code that replaces it
-    bool round = false;      ///< past the `next` of a loop
+    bool round = false;      ///< after the `next` of a loop
   };
 
-  /// A walk along the only way there is, until something waits.
+  /// A walk along the only path, up to a wait.
   struct Walk {
     Shows what;
     std::uint32_t from;
-    std::vector<std::uint32_t> calls = {}; ///< that it is inside of
+    std::vector<std::uint32_t> calls = {}; ///< enclosing calls
     std::uint32_t steps = 0;
     bool round = false;
   };
@@ -148,7 +149,7 @@ private:
     return {};
   }
 
-  /// What a subroutine shows at its end is what its callers go on with.
+  /// The callers continue with the last effect of a subroutine.
   Fate follow_callers(const Walk& walk, std::uint32_t last) const {
     const auto callers = callers_of(last);
     Fate fate;
@@ -162,7 +163,7 @@ private:
     return fate;
   }
 
-  /// The lines that call the straight run of lines that `last` ends; none where there are many.
+  /// The callers of the straight run of lines that ends at `last`; empty if there are many.
   std::vector<std::uint32_t> callers_of(std::uint32_t last) const {
     constexpr std::size_t many = 4;
     constexpr std::uint32_t longest = 64;
@@ -182,7 +183,7 @@ private:
     return callers;
   }
 
-  /// The first line of the body of the loop that a `next` steps, as they stand in the text.
+  /// The first line of the loop body for a `next`, in text order.
   std::uint32_t body_of(std::uint32_t next) const {
     const auto& variable = program_.as<NextView>(statement_of(next)).variable;
     for (auto i = next; i > 0; --i) {
@@ -214,7 +215,7 @@ private:
       return;
     }
     if (what == Shows::Roll && (fate.round || fate.at < code))
-      return; // rolls that steer replace each other, and turns come before them
+      return; // steering rolls replace each other, and turns come before them
     const auto unseen = texts_of(what).never_seen();
     auto& d = fate.round || fate.at < code
                   ? findings_.add(rules::MissingDelay, statement.span,
@@ -224,8 +225,8 @@ private:
     add_note(d, next.span, texts_of(what).next());
   }
 
-  /// One more colour at the end is a farewell; where it is the only one of a program that takes
-  /// some time, it shows none.
+  /// Another colour at the end is a sign-off. If it is the only colour of a program that takes some
+  /// time, it is never seen.
   bool is_only_colour(const StatementNode& colour) const {
     return std::any_of(flow_.code.begin(), flow_.code.end(),
                        [](const Flow::Code& code) { return code.waits; }) &&
@@ -236,7 +237,7 @@ private:
                        });
   }
 
-  /// Whether a colour is given as numbers and is not black.
+  /// True if a colour is given as literal numbers and is not black.
   bool is_light(const StatementNode& colour) const {
     const auto items = program_.items_of(colour);
     const auto is = [&](const Item& item) { return number_in(program_, item).has_value(); };
@@ -250,7 +251,7 @@ private:
 
   // ---- what drives on
 
-  /// Whether a program that rolls ends somewhere, or has a roll that brakes and has a speed.
+  /// True if a program with rolls ends somewhere, or has a braking roll with a speed.
   bool may_judge_motion() const {
     const auto rolls = flow_.all(Statement::Goroll);
     return std::any_of(rolls.begin(), rolls.end(),
@@ -267,7 +268,7 @@ private:
            number_in(program_, items[1]).value_or(0) > 0;
   }
 
-  /// Carries along every way whether the ball drives.
+  /// Propagates the motion of the ball along all paths.
   void check_motion() {
     find_settled();
     motion_.assign(size_, {});
@@ -313,13 +314,14 @@ private:
       reach(at + 1, calls ? Motion{Motion::Kind::Unknown} : after);
   }
 
-  /// The number that is written there, or the only one that its letter is ever set to.
+  /// The literal number, or the only number assigned to the letter.
   std::optional<std::int32_t> number_of(const Item& item) const {
     const auto letter = letter_in(program_, item);
     return letter ? settled_[*letter] : number_in(program_, item);
   }
 
-  /// Finds letters that are set once, to a number, on the straight way on which a program begins.
+  /// Finds letters that are assigned once, to a number, on the straight path at the start of the
+  /// program.
   void find_settled() {
     std::array<std::uint32_t, most_letters> sets{};
     for (const auto& item : program_.items)
@@ -384,7 +386,7 @@ private:
       add_go(rules::WeakBrake, statement_of(motion.roll), texts::LetsBallCoast(), '0');
   }
 
-  /// The `delay` below a roll, if nothing jumps on the way to the end and no other one is there.
+  /// The only `delay` below a roll, if no jump occurs before the end.
   std::optional<std::uint32_t> only_wait_below(std::uint32_t roll) const {
     std::optional<std::uint32_t> found;
     for (auto i = roll + 1; i < size_; ++i) {
@@ -399,8 +401,8 @@ private:
     return found;
   }
 
-  /// A line that stops the ball, in the direction in which it rolls: above an `end`, or as the
-  /// last.
+  /// Proposes a line that stops the ball in its rolling direction: above an `end`, or as the last
+  /// line.
   void add_stop(std::uint32_t roll, Span where, Diagnostic& d) const {
     if (const auto wait = only_wait_below(roll))
       where = statement_of(*wait).span;
@@ -423,7 +425,7 @@ private:
     const auto from = !ends ? line->number : above == program_.lines.rend() ? 0 : above->number;
     const bool waits = std::any_of(flow_.code.begin(), flow_.code.end(),
                                    [](const Flow::Code& code) { return code.waits; });
-    const std::uint32_t parts = waits ? 2 : 3; // without a wait, one is added, too
+    const std::uint32_t parts = waits ? 2 : 3; // without a wait, the fix adds one
     const auto to = ends                            ? line->number
                     : below != program_.lines.end() ? below->number
                                                     : line->number + parts * step;
@@ -464,7 +466,7 @@ private:
   static bool is_sum(const Node& root) { return is(root, spec::Operator::Add); }
   static bool is_difference(const Node& root) { return is(root, spec::Operator::Subtract); }
 
-  /// What a line adds to its own letter, below 0 where it takes that away: `A = A + 1`.
+  /// The amount that a line adds to its own letter, negative if it subtracts: `A = A + 1`.
   std::optional<std::int32_t> growth_by(const LetView& let) const {
     const auto nodes = nodes_of(program_, let.expression);
     if (nodes.size() != 3 || (!is_sum(nodes[2]) && !is_difference(nodes[2])) ||
@@ -475,7 +477,7 @@ private:
     return is_sum(nodes[2]) ? nodes[1].value : -nodes[1].value;
   }
 
-  /// The letters to which a line adds.
+  /// The letters that a line adds to.
   LetterSet growing_letters() const {
     LetterSet grown = 0;
     for (const auto& place : flow_.all(Statement::Let))
@@ -487,13 +489,13 @@ private:
   }
 
   struct Growth {
-    std::uint32_t code = none;         ///< the line that adds to the letter; none where none does
-    const Item* sum = nullptr;         ///< what it is set to there
-    std::int32_t step = 0;             ///< what is added; below 0: taken away
-    std::vector<std::uint32_t> resets; ///< lines that set it to a number
-    bool bounded = false;              ///< it is looked at, or set in another way
+    std::uint32_t code = none;         ///< the line that adds to the letter; none if there is none
+    const Item* sum = nullptr;         ///< the expression assigned there
+    std::int32_t step = 0;             ///< the amount added; negative: subtracted
+    std::vector<std::uint32_t> resets; ///< lines that assign a number to it
+    bool bounded = false;              ///< it is tested, or assigned in another way
   };
-  /// A letter that stands alone as an argument.
+  /// A letter used alone as an argument.
   struct Given {
     std::uint32_t letter;
     std::uint32_t code;
@@ -501,7 +503,7 @@ private:
     const spec::Parameter* parameter;
   };
 
-  /// Where one of these letters is given to a statement that is a line.
+  /// The places where one of these letters is an argument of a whole-line statement.
   std::vector<Given> places_given(LetterSet letters) const {
     std::vector<Given> all;
     for (std::uint32_t i = 0; i < size_; ++i) {
@@ -518,7 +520,7 @@ private:
     return all;
   }
 
-  /// Looks for endless loops that add to what a statement takes and never look at it.
+  /// Finds endless loops that add to an argument and never test it.
   void check_growth() {
     const auto letters = growing_letters();
     if (letters == 0)
@@ -543,9 +545,9 @@ private:
             std::any_of(grown.resets.begin(), grown.resets.end(), within))
           continue;
         if (grown.step < 0 && given.parameter->unit != "deg")
-          continue; // what becomes too small has no line to write
+          continue; // there is no line to propose for a value that becomes too small
         add_growth(grown, given);
-        grown.bounded = true; // said once
+        grown.bounded = true; // report once
       }
     }
   }
@@ -589,7 +591,7 @@ private:
     const auto letter = spec::letter_name(given.letter);
     const auto turn = given.parameter->greatest + 1;
     const bool heading = given.parameter->unit == "deg";
-    // The remainder of a value below 0 is below 0, too.
+    // The remainder of a negative value is negative, so add a turn first.
     const auto inner = grown.step > 0 ? std::string(program_.text_of(sum.span))
                                       : fmt::format("{} + {}", letter, turn + grown.step % turn);
     const auto bounded = fmt::format("({}) % {}", inner, turn);
@@ -607,8 +609,9 @@ private:
   const Flow& flow_;
   Findings& findings_;
   std::uint32_t size_;
-  std::array<std::optional<std::int32_t>, most_letters> settled_{}; ///< what letters always are
-  std::vector<Motion> motion_; ///< by line of code, before it runs
+  std::array<std::optional<std::int32_t>, most_letters> settled_{}; ///< letters with a constant
+                                                                    ///< value
+  std::vector<Motion> motion_; ///< state before each line of code
   Motion end_;                 ///< below the last line
   std::vector<std::uint32_t> waiting_;
 };

@@ -13,7 +13,8 @@
 namespace orb::compiler {
 namespace {
 
-constexpr std::uint32_t indexed = most_letters - 1; // Z in masks and stacks of loop variables
+constexpr std::uint32_t indexed = most_letters - 1; // stands for Z in masks and stacks of loop
+                                                    // variables
 
 std::uint32_t variable_of(const Item& item) {
   return item.kind == ItemKind::Letter ? item.value : indexed;
@@ -23,8 +24,8 @@ bool is(const StatementNode& node, spec::Statement kind) {
   return !node.error && node.kind == kind;
 }
 
-/// The open loops before a line, as far as they are the same on every way that leads there. One
-/// number, because they are copied and compared more often than looked into.
+/// The loops that are open before a line on every path. Packed into one number, because it is
+/// copied and compared more often than read.
 class Loops {
 public:
   static constexpr std::uint32_t most = spec::value_of(spec::Limit::ForDepth);
@@ -44,54 +45,56 @@ public:
 private:
   std::uint64_t variables() const { return bits_ >> 8; }
 
-  /// How many there are in the lowest byte, then a byte for the variable of each, innermost first.
+  /// The number of loops in the lowest byte, then a byte per loop variable, innermost first.
   std::uint64_t bits_ = 0;
   static_assert(most < sizeof bits_);
 };
 
-/// What a line does to the open loops.
+/// The effect of a line on the open loops.
 enum class Effect : std::uint8_t {
   Nothing,
   Opens,
   Closes,
-  Unsure, ///< a `for` or `next` in a branch, which may run or not
+  Unsure, ///< a `for` or `next` in a branch, which may or may not run
 };
 
-/// A line that does more than lead to the next one with the same loops open.
+/// A line that does more than fall through with the same loops open.
 struct Part {
   std::uint32_t code = 0;
   Effect effect = Effect::Nothing;
-  bool returns = false;           ///< it has a `return`
-  std::uint32_t variable = 0;     ///< that it opens or closes a loop of
-  std::uint32_t innermost = none; ///< the pair around it, in the order of the text
+  bool returns = false;           ///< has a `return`
+  std::uint32_t variable = 0;     ///< the variable of the loop that it opens or closes
+  std::uint32_t innermost = none; ///< the enclosing pair, in text order
   std::uint32_t first_state = none;
 };
 
-/// The main program, or a subroutine called while these loops are open.
+/// The main program, or a subroutine called with these loops open.
 struct Call {
   std::uint32_t entry = 0; ///< a line of code
   Loops loops;
-  std::uint32_t from = none;      ///< the first line of code that calls it so
-  std::uint32_t from_call = none; ///< where that line runs
-  std::optional<Loops> returned;  ///< what its `return`s leave open
+  std::uint32_t from = none;      ///< the first line of code with this call
+  std::uint32_t from_call = none; ///< the call in which that line runs
+  std::optional<Loops> returned;  ///< loops left open by its `return`s
   std::uint32_t first_waiting = none;
   std::uint32_t last_waiting = none;
 };
 
-/// A state that goes on when a call returns.
+/// A state that resumes when a call returns.
 struct Waiting {
   std::uint32_t state;
   std::uint32_t next; ///< the next one of the same call
 };
 
-/// What is known of a part while a call runs it.
-struct State {
+/// The state of a part within a call.
+struct PartState {
   std::uint32_t part = 0;
   std::uint32_t call = 0;
   std::uint32_t next = none; ///< the next state of the same part
   Loops loops;
 };
 
+/// Finds each `for` and `next` that do not belong together. Large because it looks twice, in text
+/// order and along all paths.
 class LoopRules {
 public:
   LoopRules(const Program& program, const Flow& flow, Findings& findings)
@@ -100,7 +103,7 @@ public:
 
   void run() {
     if (nest_in_text())
-      return; // and run as they stand
+      return; // and run as written
     collect_parts();
     match_pairs();
     check_jumps();
@@ -124,8 +127,7 @@ private:
     return variable_of(program_.as<NextView>(node).variable);
   }
 
-  /// Whether each loop ends within the one around it, and nothing jumps into a loop or out of one,
-  /// calls or returns in one.
+  /// True if loops nest properly and no jump, call or return crosses a loop boundary.
   bool nest_in_text() const {
     const auto returns = flow_.all(spec::Statement::Return);
     std::vector<std::uint32_t> around; // by line of code: the `for` of the innermost loop
@@ -139,9 +141,9 @@ private:
                        [&](const Flow::Place& place) { return around[place.code] == none; });
   }
 
-  /// False where they do not nest.
+  /// Returns false if loops do not nest.
   bool find_loops(std::vector<std::uint32_t>& around) const {
-    std::array<std::uint32_t, Loops::most> open{}; // those around a loop that is open
+    std::array<std::uint32_t, Loops::most> open{}; // the loops around an open loop
     std::size_t count = 0;
     auto innermost = none;
     around.assign(size_, none);
@@ -175,7 +177,7 @@ private:
       auto& part = parts_.emplace_back();
       part.code = i;
       read(part);
-      if (leads_on && !part.returns) { // what ends in a branch is the program
+      if (leads_on && !part.returns) { // an end in a branch ends the program
         parts_.pop_back();
         continue;
       }
@@ -203,16 +205,16 @@ private:
     }
   }
 
-  // ---- as they stand in the text
+  // ---- in text order
 
-  struct Pair {
+  struct LoopPair {
     std::uint32_t variable;
     std::uint32_t begin; ///< lines of code
     std::uint32_t end;
     std::uint32_t outer;
   };
 
-  /// Pairs `for` and `next` in the order of the text.
+  /// Pairs each `for` with its `next` in text order.
   void match_pairs() {
     std::vector<std::uint32_t> open;
     pairs_.reserve(parts_.size());
@@ -227,7 +229,7 @@ private:
                         std::any_of(open.begin(), open.end(), [&](std::uint32_t pair) {
                           return pairs_[pair].variable == part.variable;
                         });
-      if (!ends) // or it ends a loop that has been left
+      if (!ends) // or it closes a loop that has been left
         continue;
       while (!open.empty() && pairs_[open.back()].variable != part.variable)
         open.pop_back();
@@ -258,15 +260,15 @@ private:
     }
   }
 
-  /// Whether what goes on here comes to the `next` of a loop or back into the loop, and nowhere
-  /// else to leave it: what it calls only returns.
-  bool comes_back(std::uint32_t from, const Pair& pair) const {
+  /// True if every path from here reaches the `next` of the loop or its body and does not leave it
+  /// otherwise. Calls are assumed to return.
+  bool comes_back(std::uint32_t from, const LoopPair& pair) const {
     struct Way {
       std::uint32_t code;
       bool called;
       bool operator==(const Way&) const = default;
     };
-    constexpr std::size_t most = 64; // ways that are followed: what is longer is not looked at
+    constexpr std::size_t most = 64; // paths to follow; longer searches are given up
     std::vector<Way> ways{{from, false}};
     bool back = false;
     for (std::size_t i = 0; i < ways.size(); ++i) {
@@ -310,10 +312,10 @@ private:
             texts::LoopHasNo(fmt::format("next {}", spec::letter_name(counter_of(node)))));
   }
 
-  // ---- as they run
+  // ---- in execution order
 
-  /// Carries the open loops along every way, through each subroutine once for each set of open
-  /// loops with which it is called. What differs between two ways is unknown.
+  /// Propagates the open loops along all paths, and through each subroutine once per set of loops
+  /// that are open at its calls. Differences between two paths become unknown.
   void follow() {
     states_.reserve(parts_.size());
     work_.reserve(parts_.size());
@@ -377,7 +379,7 @@ private:
       return call.entry == entry && call.loops == loops;
     });
     if (at == calls_.end() && calls_.size() > most_calls)
-      at = calls_.end() - 1; // for all others, where nothing is known
+      at = calls_.end() - 1; // shared by all further calls, with an unknown state
     else if (at == calls_.end())
       at = calls_.insert(at, {entry, loops, from, states_[state].call, {}});
     reach(static_cast<std::uint32_t>(at - calls_.begin()), entry, loops);
@@ -404,7 +406,7 @@ private:
     }
   }
 
-  /// The loops after a part; nothing where it ends the program for certain.
+  /// The open loops after a part; nothing if it certainly ends the program.
   static std::optional<Loops> step(const Part& part, Loops loops) {
     if (part.effect == Effect::Unsure)
       return Loops::unknown();
@@ -418,14 +420,14 @@ private:
       return loops;
     }
     if (innermost)
-      return loops; // the innermost loop begins again
+      return loops; // restarts the innermost loop
     if (loops.count() == Loops::most)
       return std::nullopt;
     loops.open(part.variable);
     return loops;
   }
 
-  // ---- what is said of it
+  // ---- reporting
 
   void report(const Part& part) {
     const auto& node = statement(part.code);
@@ -434,7 +436,7 @@ private:
       return;
     }
     bool always = true;
-    const State* stopped = nullptr;
+    const PartState* stopped = nullptr;
     for (auto at = part.first_state; at != none; at = states_[at].next)
       if (step(part, states_[at].loops))
         always = false;
@@ -448,7 +450,7 @@ private:
       add_stray_next(node, stopped->loops);
   }
 
-  /// Whether more loops count in a letter than end with it.
+  /// True if more loops open on a letter than close on it.
   bool lacks_next(std::uint32_t variable) const {
     int open = 0;
     for (const auto& part : parts_)
@@ -457,8 +459,8 @@ private:
     return open > 0;
   }
 
-  /// `next Q` without any `for Q`: where one loop is open on every way and lacks its `next`, this
-  /// is the one.
+  /// Reports a `next Q` without any `for Q`. If exactly one loop is open on every path and has no
+  /// `next`, this one belongs to it.
   void add_next_of_nobody(const Part& part) {
     const auto& node = statement(part.code);
     auto& d =
@@ -481,7 +483,7 @@ private:
                        std::string(1, spec::letter_name(*innermost)));
   }
 
-  Diagnostic& add_depth(const StatementNode& node, const State& state) {
+  Diagnostic& add_depth(const StatementNode& node, const PartState& state) {
     std::vector<const Call*> calls; // outermost first
     for (const auto* call = &calls_[state.call]; call->from != none;
          call = &calls_[call->from_call])
@@ -506,23 +508,23 @@ private:
                   texts::EndItFirst(fmt::format("next {}", innermost)));
   }
 
-  /// Beyond these, calls are not told apart any more: no program that fits into a robot has as
-  /// many, and a linter must not take minutes over one.
+  /// Above this limit, calls are no longer distinguished: no program in a robot has as many, and a
+  /// linter must not take minutes.
   static constexpr std::size_t most_calls = 64;
 
   const Program& program_;
   const Flow& flow_;
   Findings& findings_;
   std::uint32_t size_;
-  LetterSet set_ = 0;                ///< letters that some `for` counts in
-  LetterSet stepped_ = 0;            ///< letters that some `next` steps
-  std::vector<Part> parts_;          ///< in the order of the text
-  std::vector<std::uint32_t> ahead_; ///< by line of code: the first part from there on
-  std::vector<Pair> pairs_;
+  LetterSet set_ = 0;                ///< letters of a `for`
+  LetterSet stepped_ = 0;            ///< letters of a `next`
+  std::vector<Part> parts_;          ///< in text order
+  std::vector<std::uint32_t> ahead_; ///< by line of code: the first part at or after it
+  std::vector<LoopPair> pairs_;
   std::vector<Call> calls_; ///< the first is the main program
   std::vector<Waiting> waiting_;
-  std::vector<State> states_;
-  std::vector<std::uint32_t> work_; ///< states to go on from
+  std::vector<PartState> states_;
+  std::vector<std::uint32_t> work_; ///< work list of states
 };
 
 } // namespace

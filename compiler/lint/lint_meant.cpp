@@ -22,8 +22,9 @@ using spec::Variable;
 
 constexpr std::int32_t quarter = full_turn / 4;
 
-/// Programs that run as they are written, which cannot be what was meant: loops that are over at
-/// once or never, tests that the ball's own way decides.
+/// Finds programs that run without an error but cannot be intended: loops that end at once or
+/// never, tests that the ball's own path decides. Large because each rule recognises its own
+/// pattern of lines.
 class MeantPass {
 public:
   MeantPass(const Program& program, const Flow& flow, const Settings& settings, Findings& findings)
@@ -54,7 +55,7 @@ private:
     return program_.statements[flow_.code[code].statement];
   }
   std::optional<std::int32_t> number(const Item& item) const { return constant_in(program_, item); }
-  /// Whether a line is one statement that leads to the next line.
+  /// True if a line is one statement that falls through.
   bool is_plain(std::uint32_t code) const {
     const auto& statement = statement_of(code);
     return !statement.error && statement.then_branch == none && flow_.code[code].falls &&
@@ -64,10 +65,10 @@ private:
     return {comparison.left.span.begin, comparison.right.span.end};
   }
 
-  // ---- a speed that is tested before the ball can have begun to move
+  // ---- a speed tested before the ball can have started to move
 
-  /// From a roll along the only way there is, up to a test before which no time passes. The ball
-  /// must have been at rest: nothing rolls above.
+  /// Follows a roll along the only path to a test that is reached in no time. The ball must be at
+  /// rest: no roll comes before.
   void check_early_test(std::uint32_t roll) {
     const auto items = program_.items_of(statement_of(roll));
     for (std::uint32_t i = 0; i < roll; ++i)
@@ -98,7 +99,8 @@ private:
     const auto jumps = flow_.jumps_of(flow_.code[at]);
     if (!test || test->sensor != Variable::Speed || condition.second || jumps.size() != 1)
       return;
-    // A loop that is left at once: from its end, or from within. Where it goes on, it waits.
+    // A loop that is left at once, at its end or from within; where the test continues it, it does
+    // wait.
     const bool back = jumps.front().to <= at;
     if (Bound{test->relation, test->number}.holds(0) == back ||
         (!back && jumps.front().to <= end_of_loop(at)))
@@ -107,7 +109,7 @@ private:
                   texts::WaitBeforeIt("delay 500"));
   }
 
-  /// The last line that leads back to a line or to one above it; 0 where none does.
+  /// The last line that jumps back to a line or above it; 0 if there is none.
   std::uint32_t end_of_loop(std::uint32_t at) const {
     std::uint32_t end = 0;
     for (const auto& jump : flow_.jumps)
@@ -116,7 +118,7 @@ private:
     return end;
   }
 
-  // ---- rolls while nothing is stabilized
+  // ---- rolls while stabilization is off
 
   void check_roll_below(std::uint32_t raw) {
     const auto motors = program_.items_of(statement_of(raw));
@@ -149,7 +151,7 @@ private:
 
   // ---- loops that count
 
-  /// `for I = 0 to 4` around a turn by 90: four turns are a circle.
+  /// `for I = 0 to 4` around a turn by 90: four turns make a circle.
   void check_turns(std::uint32_t begin) {
     const auto loop = program_.as<ForView>(statement_of(begin));
     const auto last = number(loop.end);
@@ -178,7 +180,7 @@ private:
         texts::Write(fmt::format("for {} = 1 to {}", program_.text_of(loop.variable.span), *last)));
   }
 
-  /// The first `next` below a line; 0 where there is none.
+  /// The first `next` below a line; 0 if there is none.
   std::uint32_t next_below(std::uint32_t line) const {
     for (auto i = line + 1; i < size_ && i - line < longest_loop; ++i)
       if (!statement_of(i).error && statement_of(i).kind == Statement::Next)
@@ -186,7 +188,7 @@ private:
     return 0;
   }
 
-  /// By how much a line turns in each round: `H = (H + 90) % 360`, or `goroll I * 90 % 360,…`.
+  /// The turn of a line per round: `H = (H + 90) % 360`, or `goroll I * 90 % 360,…`.
   std::optional<std::int32_t> turn_in(const StatementNode& statement, std::uint32_t counter) const {
     if (statement.kind != Statement::Let && statement.kind != Statement::Goroll)
       return std::nullopt;
@@ -202,7 +204,7 @@ private:
                        static_cast<spec::Operator>(root.what) == spec::Operator::Remainder &&
                        program_.nodes[sum.value - 1].value == full_turn;
     if (!wraps)
-      return std::nullopt; // it leaves the range, and that is said
+      return std::nullopt; // it leaves the range, which another rule reports
     for (const auto& node : nodes_of(program_, sum)) {
       if (node.kind != NodeKind::Binary || static_cast<spec::Operator>(node.what) != op)
         continue;
@@ -234,7 +236,7 @@ private:
     check_place(condition.first, jump);
   }
 
-  /// A loop that sets what it asks to one value, at which it ends.
+  /// A loop that assigns the tested letter one value, at which it ends.
   void check_once(const Comparison& test, const Flow::Jump& jump) {
     const auto letter = letter_in(program_, test.left);
     const auto limit = number(test.right);
@@ -258,7 +260,7 @@ private:
       d.help = texts::Write(stepped(program_, name, '-', -std::int64_t{*value}));
   }
 
-  /// A timer that counts down below what a loop waits for, and stays there.
+  /// A timer that counts down past the value that a loop waits for, and stays at 0.
   void check_timer(const Comparison& comparison, const Flow::Jump& jump) {
     const auto test = sensor_test(program_, comparison);
     if (!test || !is_timer(test->sensor) || jump.to == 0)
@@ -273,7 +275,7 @@ private:
       if (!sets(statement_of(i), test->sensor))
         continue;
       const auto from = number(program_.as<LetView>(statement_of(i)).expression);
-      // Equal to its number it is for an instant only.
+      // A timer equals a number only for an instant.
       const Bound bound{test->relation, test->number};
       if (bound.relation != Relation::Less || !from || *from <= 0 || !bound.holds(0) ||
           !bound.holds(*from - 1))
@@ -285,7 +287,7 @@ private:
     }
   }
 
-  /// Values that each round begins to read anew.
+  /// Data that each round reads from its start again.
   void check_data(std::uint32_t first, std::uint32_t last) {
     const StatementNode* data = nullptr;
     std::size_t reads = 0;
@@ -293,7 +295,7 @@ private:
       const auto& statement = statement_of(i);
       if (statement.error || flow_.code[i].loops || (flow_.code[i].target && i > first) ||
           (statement.then_branch != none && i < last) || has_call(i))
-        return; // who reads there, and when, is another question
+        return; // the order of these reads is not analysed
       if (statement.kind == Statement::Data && std::exchange(data, &statement) != nullptr)
         return;
       if (statement.kind == Statement::Read)
@@ -314,10 +316,10 @@ private:
                   texts::WriteAboveLoop(program_.text_of(data->span)));
   }
 
-  // ---- places to which no roll leads
+  // ---- places that no roll leads to
 
-  /// The one heading along which a program rolls, a multiple of 90; nothing where there are others,
-  /// or where somebody else moves the ball or names its place. Opposite ones curve between them.
+  /// The only heading of a program, a multiple of 90; nothing if there are others, or if something
+  /// else moves the ball or sets its place. Between opposite headings it drives curves.
   std::optional<std::int32_t> only_heading() const {
     if (!flow_.all(Statement::Raw).empty() || !flow_.all(Statement::Macrun).empty() ||
         !flow_.all(Statement::Heading).empty() || flow_.places.size() != program_.statements.size())
@@ -339,8 +341,7 @@ private:
     return only;
   }
 
-  /// A loop around nothing but waits that ends at a place to which the only roll above does not
-  /// lead.
+  /// A wait loop for a place that the only roll above it does not lead to.
   void check_place(const Comparison& comparison, const Flow::Jump& jump) {
     const auto test = sensor_test(program_, comparison);
     if (!test || (test->sensor != Variable::Xpos && test->sensor != Variable::Ypos))
@@ -354,7 +355,7 @@ private:
     const bool along = (test->sensor == Variable::Ypos) == (*heading % (2 * quarter) == 0);
     const bool up = *heading < 2 * quarter;
     const Bound bound{test->relation, test->number};
-    // Where it can be: all along its heading, and a bit to the sides.
+    // The places it can reach: anywhere along its heading, and a little to the sides.
     for (const auto value : {0, -sway, sway, along && up ? far : sway, along && !up ? -far : -sway})
       if (!bound.holds(value))
         return;
@@ -370,7 +371,7 @@ private:
           spec::info(test->sensor == Variable::Xpos ? Variable::Ypos : Variable::Xpos).word));
   }
 
-  // ---- the least and the greatest of something
+  // ---- the minimum and maximum of readings
 
   /// `if speed < L then L = speed`, where L begins at 0.
   void check_extremes() {
@@ -384,7 +385,7 @@ private:
     }
   }
 
-  /// A letter and a number added to it.
+  /// A letter plus a number.
   struct Shifted {
     std::uint32_t letter = none;
     std::int64_t by = 0;
@@ -402,7 +403,7 @@ private:
                                             : Shifted{};
   }
 
-  /// The sensor that is read there, or that its letter always has the value of.
+  /// The sensor, or the sensor whose value the letter always has.
   std::optional<Variable> sensor_behind(const Item& item) const {
     if (const auto sensor = sensor_in(program_, item))
       return sensor;

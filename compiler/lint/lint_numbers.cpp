@@ -44,14 +44,14 @@ private:
     if (faults_.size() * step > static_cast<std::size_t>(greatest))
       return;
     const bool words = std::all_of(faults_.begin(), faults_.end(), [this](const Fault* fault) {
-      return is_letter(text_of(*fault).front()); // and no number behind a sign: `> 10 LEDC 1`
+      return is_letter(text_of(*fault).front()); // and no number after a sign: `> 10 LEDC 1`
     });
     d.fix = Fix{texts::NumberTheLines(), {}, words ? Safety::Safe : Safety::Unsafe};
     for (std::size_t i = 0; i < faults_.size(); ++i)
       d.fix->edits.push_back(number(*faults_[i], static_cast<std::uint32_t>(i + 1) * step));
   }
 
-  /// Lines between numbered ones take numbers between theirs, if there are any that nobody names.
+  /// Numbers the lines between numbered ones with free numbers that no jump uses.
   void number_some() {
     for (std::size_t i = 0; i < faults_.size();) {
       auto last = i + 1;
@@ -87,7 +87,7 @@ private:
           texts::LinesBeginWithNumber(greatest));
       auto free = below + std::min(room, step) * static_cast<std::uint32_t>(i + 1);
       if (const auto named = named_between(below, above); run.size() == 1 && named.size() == 1)
-        free = named[0]; // what jumps into the gap means this line
+        free = named[0]; // a jump into the gap means this line
       else if (room == 0 || is_named(free))
         continue;
       d.help = texts::Write(fmt::format("{} {}", free, text_of(*run[i])));
@@ -95,7 +95,7 @@ private:
     }
   }
 
-  /// The numbers between two lines that something jumps to, each once.
+  /// The numbers between two lines that jumps use, each once.
   std::vector<std::uint32_t> named_between(std::uint32_t below, std::uint32_t above) const {
     std::vector<std::uint32_t> named;
     for (const auto& item : program_.items)

@@ -14,8 +14,7 @@ namespace {
 
 using spec::Statement;
 
-/// What letters add up to, and is lost on the way: values that are exchanged, sums, products and
-/// shares.
+/// Finds computations that lose their result: swaps, sums, products and percentages.
 class SumsPass {
 public:
   SumsPass(const Program& program, const Flow& flow, Findings& findings)
@@ -39,7 +38,7 @@ private:
     return program_.statements[flow_.code[code].statement];
   }
 
-  /// The letter that a statement sets; nothing of any other one.
+  /// The letter that a statement assigns; nothing for any other statement.
   std::optional<std::uint8_t> set_by(const StatementNode& statement) const {
     if (statement.error || statement.kind != Statement::Let)
       return std::nullopt;
@@ -79,7 +78,7 @@ private:
       return;
     const auto sensor = sensor_in(program_, condition.first.left);
     if (!sensor && !letter_in(program_, condition.first.left))
-      return; // `rnd 6` is another one each time
+      return; // each `rnd 6` gives another value
     const auto first = bound_of(condition.first);
     const auto second = bound_of(*condition.second);
     const bool both = condition.joint->kind == ItemKind::And;
@@ -124,7 +123,7 @@ private:
         spec::letter_name(free == used.end() ? 2 : static_cast<std::size_t>(free - used.begin()))};
   }
 
-  // ---- a share of 100
+  // ---- a percentage
 
   void check_share(std::uint32_t n) {
     constexpr std::int32_t per_cent = 100; // of a whole
@@ -156,7 +155,7 @@ private:
 
   // ---- a mean of several
 
-  /// `a + b + c / 3`, as many as are divided by.
+  /// `a + b + c / 3`, where the divisor equals the number of terms.
   void check_mean(std::uint32_t n) {
     const auto& nodes = program_.nodes;
     const auto is = [&](std::uint32_t node, spec::Operator sign) {
@@ -184,14 +183,14 @@ private:
         .fix = single_fix(texts::Write(line), span, line, Safety::Unsafe);
   }
 
-  // ---- a product that begins at 0
+  // ---- a product that starts at 0
 
   void note_product(const StatementNode& let) {
     const auto letter = *set_by(let);
     const auto root = value_of(let).value;
     const auto& nodes = program_.nodes;
     if (nodes[root].kind == NodeKind::Number && nodes[root].value == 0)
-      return; // what it is anyway
+      return; // it has this value anyway
     const auto is_own = [&](std::uint32_t n) {
       return nodes[n].kind == NodeKind::Letter && nodes[n].what == letter;
     };
@@ -216,7 +215,7 @@ private:
         add(rules::StaysZero, product.first->span, stays_zero(name_in(*product.first)));
   }
 
-  // ---- a sum that begins anew in each round
+  // ---- a sum that restarts in each round
 
   void check_loops() {
     for (const auto& place : flow_.all(Statement::For))
@@ -229,7 +228,7 @@ private:
         check_sum(jump.to, jump.from);
   }
 
-  /// The `next` of a loop, as they stand in the text.
+  /// The `next` of a loop, in text order.
   std::uint32_t next_of(std::uint32_t loop) const {
     std::uint32_t depth = 0;
     for (auto i = loop; i < flow_.code.size() && i - loop < longest_loop; ++i) {
@@ -240,7 +239,7 @@ private:
     return none;
   }
 
-  /// Looks at a loop from its first line to the one that leads back.
+  /// Checks a loop from its first line to the line that jumps back.
   void check_sum(std::uint32_t first, std::uint32_t last) {
     std::uint32_t depth = 0;
     const StatementNode* restart = nullptr;
@@ -248,7 +247,7 @@ private:
       const auto& statement = statement_of(i);
       if (statement.error || (flow_.code[i].target && i > first) ||
           !flow_.jumps_of(flow_.code[i]).empty() || statement.then_branch != none)
-        return; // a line runs in some rounds only
+        return; // a line that runs only in some rounds
       depth += statement.kind == Statement::For ? 1 : 0;
       depth -= statement.kind == Statement::Next ? 1 : 0;
       const auto letter = set_by(statement);
@@ -268,7 +267,7 @@ private:
            nodes.front().kind == NodeKind::Letter && nodes.front().what == letter;
   }
 
-  /// Whether the letter is read below a loop before it is set there.
+  /// True if the letter is read below a loop before it is assigned there.
   bool is_read_below(std::uint32_t last, std::uint8_t letter) const {
     for (auto i = last + 1; i < flow_.code.size(); ++i) {
       const auto& statement = statement_of(i);
@@ -295,13 +294,13 @@ private:
         sum_restarts(name_in(restart), texts::WriteAboveLoop(program_.text_of(restart.span))));
   }
 
-  Diagnostic& add(const Rule& rule, Span span, Said said) {
+  Diagnostic& add(const Rule& rule, Span span, FindingTexts said) {
     return findings_.add(rule, span, std::move(said.message), std::move(said.help));
   }
 
   struct Product {
     const StatementNode* first = nullptr;
-    bool others = false; ///< something else sets it, too
+    bool others = false; ///< something else assigns it, too
   };
 
   const Program& program_;

@@ -4,13 +4,13 @@ namespace orb::compiler {
 
 namespace {
 
-/// Neither printable ASCII nor LF.
+/// True if the character is neither printable ASCII nor LF.
 constexpr bool is_unusual(char c) {
   return ((c < ' ') | (c > '~')) & (c != '\n');
 }
 
 bool has_unusual_byte(std::string_view text) {
-  constexpr std::size_t block = 64; // known, so that the compiler looks at many bytes at once
+  constexpr std::size_t block = 64; // a constant, so that the compiler vectorizes the loop
   for (; text.size() >= block; text.remove_prefix(block)) {
     std::uint8_t found = 0;
     for (std::size_t i = 0; i < block; ++i)
@@ -107,7 +107,7 @@ void TextPass::check_numbers() {
                                           spec::value_of(spec::Limit::GreatestLineNumber)));
     if (line.number <= last && i > 0)
       ascending = false;
-    if (line.number < last && !flow_.is_taken(line.number, i)) // duplicate-line says so
+    if (line.number < last && !flow_.is_taken(line.number, i)) // duplicate-line reports it
       findings_.add(rules::UnsortedLines, line.number_span, texts::LineIsBelow(line.number, last),
                     texts::LinesRunInOrder());
     last = line.number;
@@ -140,7 +140,7 @@ bool TextPass::is_target(std::uint32_t number) {
 }
 
 void TextPass::check_duplicates() {
-  constexpr std::size_t most_fixes = 64; // the rest gets its turn when these are applied
+  constexpr std::size_t most_fixes = 64; // the rest follows once these are applied
   std::size_t first = 0;
   std::size_t found = 0;
   for (std::size_t i = 1; i < flow_.numbers.size(); ++i) {
@@ -178,7 +178,7 @@ std::optional<std::uint32_t> TextPass::free_number(std::uint32_t index) {
     return flow_.find(n) == nullptr && !is_target(n) &&
            std::find(offered_.begin(), offered_.end(), n) == offered_.end();
   };
-  constexpr std::uint32_t tries = 100; // a text as crowded as that is renumbered instead
+  constexpr std::uint32_t tries = 100; // a denser text should be renumbered instead
   const auto middle = above - below > 20 ? below + 10 : below + (above - below) / 2;
   for (std::uint32_t n = middle; n < above && n < middle + tries; ++n)
     if (n > below && is_free(n))

@@ -13,14 +13,13 @@ namespace {
 
 using spec::Statement;
 
-/// A roll that lasts no longer moves nothing that anybody could see.
+/// The ball does not move visibly in a shorter roll.
 constexpr std::int32_t unseen_roll_ms = 31;
 constexpr std::int32_t unseen_colour_ms = 10;
-/// Colours that are drawn anew each time are party lights, which may be fast.
+/// Colours drawn anew each time are party lights, which may be fast.
 constexpr std::int32_t unseen_party_ms = 6;
 
-/// Numbers that are fine for the robot and cannot be what was meant: seconds for milliseconds, a
-/// light of 1.
+/// Finds numbers in range that cannot be intended: seconds for milliseconds, a brightness of 1.
 class UnitsPass {
 public:
   UnitsPass(const Program& program, const Flow& flow, Findings& findings)
@@ -50,7 +49,7 @@ private:
       (this->*check)(program_.statements[place.statement], place.code);
   }
 
-  /// The only roll has speed 0, and then the ball is stopped: heading and speed are exchanged.
+  /// If the only roll has speed 0 and the ball is then stopped, heading and speed are swapped.
   void check_exchanged() {
     const StatementNode* roll = nullptr;
     bool stops = false;
@@ -124,13 +123,14 @@ private:
                fmt::format("delay {}", *ms * in_second));
   }
 
-  /// Whether another roll or the end of the program follows a delay at once.
+  /// True if another roll or the end of the program directly follows a delay.
   bool ends_roll(std::uint32_t code) const {
     const auto* next = below(code);
     return next != nullptr && (next->kind == Statement::Goroll || next->kind == Statement::End);
   }
 
-  /// Whoever asks for a number once, or by print, wants a person to answer; a client can be faster.
+  /// A number that is asked for once, or after a print, comes from a person; a client can be
+  /// faster.
   void check_input(const StatementNode& statement, std::uint32_t code) {
     const auto input = program_.as<InputView>(statement);
     const auto* asked = above(code);
@@ -152,13 +152,13 @@ private:
     if (ms != 0)
       timers_.set_above_0(timer);
     if (!is_timer(timer) || !ms || *ms < 2 || *ms >= least_meant || in_loop(code))
-      return; // 1 is as good as over
+      return; // 1 is practically over
     const auto& row = spec::variables[let.variable.value];
     add_time(let.expression, *ms, texts::TimerReachesZero(row.word, *ms),
              fmt::format("{} = {}", row.word, *ms * in_second));
   }
 
-  /// Whether a jump leads from below a line to above it, or to it.
+  /// True if a line is inside a jump back.
   bool in_loop(std::uint32_t code) const {
     for (auto i = code; i < flow_.code.size() && i - code < longest_loop; ++i) {
       if (program_.statements[flow_.code[i].statement].kind == Statement::Next)
@@ -203,7 +203,7 @@ private:
     constexpr std::int32_t crawls = 5; // 4 cm/s and less: nothing starts to roll
     if (!value || *value < 1 || *value >= crawls || (items.size() > 2 && number(items[2]) == 0))
       return;
-    constexpr std::int32_t brisk = 100; // for a first try
+    constexpr std::int32_t brisk = 100; // fast enough for a first try
     add_tiny(statement, speed, texts::BarelyMoves(*value, spec::ball::greatest), brisk);
   }
 
@@ -264,7 +264,7 @@ private:
 
   // ---- words
 
-  /// The statement with another number in the place of one of its values.
+  /// The statement with one of its values replaced.
   std::string with_value(const StatementNode& statement, const Item& item,
                          std::int32_t value) const {
     return fmt::format("{}{}{}", program_.text_of({statement.span.begin, item.span.begin}), value,

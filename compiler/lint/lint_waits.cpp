@@ -13,7 +13,7 @@ namespace {
 using spec::Relation;
 using spec::Statement;
 
-/// Loops that wait for what cannot come, and loops that are meant as a wait.
+/// Finds loops that wait for an impossible event, and loops used as a delay.
 class WaitsPass {
 public:
   WaitsPass(const Program& program, const Flow& flow, const Settings& settings, Findings& findings)
@@ -25,8 +25,9 @@ public:
       if (flow_.is_line(place))
         check_loop(program_.statements[place.statement], place.code);
     for (const auto& jump : flow_.jumps)
+      // `on` may have thousands of targets, and has no condition.
       if (!jump.call && jump.to <= jump.from && jump.from - jump.to < longest_loop &&
-          statement_of(jump.from).kind != Statement::On) // may have thousands, and no condition
+          statement_of(jump.from).kind != Statement::On)
         check_back(statement_of(jump.from), jump, jump.from);
   }
 
@@ -51,7 +52,7 @@ private:
       return;
     const auto rounds = (std::int64_t{*last} - *first) / *step + 1;
     std::int64_t reads = 0;
-    const StatementNode* let = nullptr; // the last that sets the variable
+    const StatementNode* let = nullptr; // the last that assigns the variable
     for (auto i = begin + 1; i < size_ && i - begin < longest_loop; ++i) {
       if (!is_plain(i) || flow_.code[i].target)
         return;
@@ -85,7 +86,7 @@ private:
   }
 
   void check_empty(const StatementNode& statement, const ForView& loop, std::int64_t rounds) {
-    constexpr std::int64_t least_rounds = 100;    // fewer are over before anybody could notice
+    constexpr std::int64_t least_rounds = 100;    // fewer take no noticeable time
     constexpr std::int64_t ms_of_a_second = 1000; // not a fact about the robot
     const auto ms = rounds * ms_of_a_second / spec::value_of(spec::Limit::LinesPerSecond);
     const auto most = spec::info(Statement::Delay).parameters()[0].greatest;
@@ -95,10 +96,9 @@ private:
                   texts::BusyWaitOf(ms), texts::WriteInsteadOfLoop(fmt::format("delay {}", ms)));
   }
 
-  // ---- values that are read in loops
+  // ---- values read in loops
 
-  /// The only `data` of the program, where no `rstr` begins it again; null where it is not so
-  /// simple.
+  /// The only `data` of the program, if no `rstr` restarts it; null otherwise.
   const StatementNode* only_data() const {
     const StatementNode* found = nullptr;
     for (const auto& statement : program_.statements) {
@@ -113,7 +113,7 @@ private:
     return found;
   }
 
-  /// How many values the lines above read for certain, before the loop that begins here.
+  /// The number of values that the lines above certainly read before the loop that begins here.
   std::int64_t read_above(std::uint32_t begin) const {
     std::int64_t reads = 0;
     for (auto i = begin; i > 0 && begin - i < longest_loop; --i) {
@@ -127,7 +127,7 @@ private:
     return reads;
   }
 
-  /// A loop whose rounds read more than there is; `reads` of nothing are without end.
+  /// A loop whose rounds read more values than there are; no `reads` means endless.
   void check_data(std::uint32_t first, std::uint32_t last, std::optional<std::int64_t> reads) {
     const auto* data = only_data();
     if (data == nullptr || (&statement_of(first) <= data && data <= &statement_of(last)))
@@ -153,7 +153,7 @@ private:
     return n == 1 ? texts::AddOneValue(line) : texts::AddValues(n, line);
   }
 
-  /// A loop without an end and without a question: each round reads.
+  /// An endless loop without a condition, which reads in each round.
   void check_endless_read(std::uint32_t first, std::uint32_t last) {
     bool reads = false;
     for (auto i = first; i <= last; ++i) {
@@ -193,7 +193,7 @@ private:
     check_stale(jump.to, code);
   }
 
-  /// `if A < 5 then goto 10` where line 10 is `A = 0`: each round sets the counter back.
+  /// `if A < 5 then goto 10` where line 10 is `A = 0`: each round resets the counter.
   void check_restart(const StatementNode& statement, const Flow::Jump& jump, std::uint32_t code) {
     const auto& begin = statement_of(jump.to);
     const auto condition = program_.as<IfView>(statement);
@@ -204,7 +204,8 @@ private:
       return;
     const auto let = program_.as<LetView>(begin);
     const auto first = number(let.expression);
-    const auto set = std::max(settings_[*letter][0].code, settings_[*letter][1].code); // below
+    const auto set = std::max(settings_[*letter][0].code, settings_[*letter][1].code); // the one
+                                                                                       // below
     if (let.variable.kind != ItemKind::Letter || let.variable.value != *letter || !first ||
         set <= jump.to || set >= code || !is_plain(set))
       return;
@@ -225,7 +226,7 @@ private:
     add_note(d, begin.span, texts::SetHere());
   }
 
-  /// What a line adds to a letter: `A = A + 1`.
+  /// The amount that a line adds to a letter: `A = A + 1`.
   std::optional<std::int32_t> step_in(const StatementNode& statement, std::uint8_t letter) const {
     if (statement.kind != Statement::Let)
       return std::nullopt;
@@ -239,7 +240,7 @@ private:
                                               : std::nullopt;
   }
 
-  /// A line that jumps to itself while something holds that is over at once.
+  /// A line that jumps to itself while a condition holds that ends at once.
   void check_inverted(const StatementNode& statement, std::uint32_t code) {
     const auto condition = program_.as<IfView>(statement);
     const auto test = sensor_test(program_, condition.first);
@@ -270,7 +271,7 @@ private:
     return false;
   }
 
-  /// What a timer was set to on the lines right above.
+  /// The value assigned to a timer on the lines right above.
   std::optional<std::int32_t> set_above(spec::Variable timer, std::uint32_t code) const {
     constexpr std::uint32_t far = 8;
     for (auto i = code; i > 0 && code - i < far; --i) {
@@ -279,7 +280,7 @@ private:
       const auto& statement = statement_of(i - 1);
       const auto after = spec::info(statement.kind).after;
       if (after != spec::After::Falls)
-        return std::nullopt; // time passes, or another way comes in
+        return std::nullopt; // time passes, or another path joins
       if (statement.kind != Statement::Let)
         continue;
       const auto let = program_.as<LetView>(statement);
@@ -300,7 +301,7 @@ private:
     d.fix = single_fix(d.help, test, until, Safety::Unsafe);
   }
 
-  /// A loop whose only way out asks a letter that nothing in it sets.
+  /// A loop whose only exit tests a letter that no line in it assigns.
   void check_stale(std::uint32_t first, std::uint32_t last) {
     const StatementNode* test = nullptr;
     std::uint32_t test_code = none;
@@ -349,9 +350,9 @@ private:
     add_note(d, test->span, texts::LoopTestsCopyHere());
   }
 
-  /// Of a copy of a copy the first one, where each is set once.
+  /// Follows copies of copies to the first one, if each is assigned once.
   const StatementNode& original_of(const StatementNode& copy) const {
-    constexpr int most = 4; // a copy of itself has no first one
+    constexpr int most = 4; // a cycle of copies has no first one
     const auto* at = &copy;
     for (int i = 0; i < most && !at->error && at->kind == Statement::Let; ++i) {
       const auto letter = letter_in(program_, program_.as<LetView>(*at).expression);
@@ -362,7 +363,7 @@ private:
     return *at;
   }
 
-  /// A loop that asks a letter which is a number from above it, and stays that.
+  /// A loop that tests a letter with a constant value from above the loop.
   void check_unchanged(const StatementNode& test, bool back, std::optional<std::int32_t> value) {
     const auto condition = program_.as<IfView>(test).first;
     const auto relation = static_cast<Relation>(condition.relation.value);

@@ -22,7 +22,7 @@ SensorAnswer in_unit(const SensorQuestion& question, const spec::VariableInfo& r
 
 SensorAnswer passed(const SensorQuestion& question, const spec::VariableInfo& row, bool down) {
   const bool equal = question.relation == Relation::Equal;
-  // Passed is below a timer that counts down and above one that counts up.
+  // A timer that counts down passes to below the number, one that counts up to above.
   const auto symbol = down == equal ? '<' : '>';
   const auto limit = equal ? question.number + (down ? 1 : -1) : question.number;
   const auto line = fmt::format("{} {} {}", row.word, symbol, limit);
@@ -30,7 +30,7 @@ SensorAnswer passed(const SensorQuestion& question, const spec::VariableInfo& ro
           texts::Write(line), line};
 }
 
-/// The answer of a comparison that has but one.
+/// The result of a comparison that is constant; nothing otherwise.
 std::optional<bool> only_answer(const SensorQuestion& question, const spec::VariableInfo& row) {
   const bool below = question.number < row.least;
   const bool above = question.number > row.greatest;
@@ -78,7 +78,7 @@ std::optional<SensorAnswer> judge(const SensorQuestion& question, std::string_vi
     return passed(question, row, timers.counts_down(question.sensor));
   const auto* unit = spec::find_small_unit(row.unit);
   const bool tiny = unit != nullptr && question.written > 1 && question.written < unit->least_meant;
-  // A timer that counts down is below a few milliseconds when it has nearly passed.
+  // A timer that counts down is below a few milliseconds when it has almost run out.
   if (tiny &&
       (!timer || question.relation == Relation::Greater || !timers.counts_down(question.sensor)))
     return in_unit(question, row, *unit);

@@ -15,7 +15,7 @@ constexpr bool is_timer(spec::Variable variable) {
   return variable <= spec::Variable::TimerC;
 }
 
-/// Which timers a program makes count down.
+/// The timers that a program makes count down.
 class Timers {
 public:
   void set_above_0(spec::Variable timer) { down_ |= 1U << static_cast<unsigned>(timer); }
@@ -30,9 +30,9 @@ private:
 /// A comparison of a sensor, on the left, with a number.
 struct SensorQuestion {
   spec::Variable sensor;
-  spec::Relation relation; ///< as the robot asks it
+  spec::Relation relation; ///< as the robot evaluates it
   std::int32_t number;
-  std::string symbol; ///< as it is written: `>=`
+  std::string symbol; ///< as written: `>=`
   std::int32_t written;
 };
 
@@ -40,11 +40,11 @@ struct SensorAnswer {
   const Rule* rule;
   Message message;
   Message help;
-  std::string line; ///< the comparison to write; empty where nobody knows
+  std::string line; ///< the replacement; empty if unknown
 };
 
-/// What is wrong with a comparison, written as `text`: it is in another unit, asks a timer for one
-/// exact value, or has one answer only.
+/// Checks a comparison, written as `text`: reports a wrong unit, a timer tested for one exact
+/// value, and a constant result.
 std::optional<SensorAnswer> judge(const SensorQuestion& question, std::string_view text,
                                   const Timers& timers);
 

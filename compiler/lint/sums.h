@@ -10,12 +10,12 @@
 #include <string_view>
 #include <utility>
 
-// What is computed and lost on the way, for numbered and for structured programs: what two
-// comparisons answer together, and the words for what is found.
+// Checks of lost results, shared by numbered and structured programs: joint results of two
+// comparisons, and the messages.
 
 namespace orb::compiler {
 
-/// `value relation number`.
+/// A comparison `value relation number`.
 struct Bound {
   spec::Relation relation;
   std::int64_t number;
@@ -31,9 +31,9 @@ struct Bound {
   }
 };
 
-/// What two comparisons of one value answer together where that is always the same: `A > 9 and A <
-/// 1` never holds, `A ! 1 or A ! 2` always. Nothing where it depends on the value. Whether one of
-/// them changes its answer is seen next to its number.
+/// The joint result of two comparisons of one value if it is constant: `A > 9 and A < 1` never
+/// holds, `A ! 1 or A ! 2` always does. Nothing if it depends on the value. A comparison changes
+/// its result only next to its number, so those values are tested.
 inline std::optional<bool> joint_answer(const Bound& first, const Bound& second, bool both) {
   std::optional<bool> answer;
   for (const auto number : {first.number, second.number})
@@ -47,46 +47,46 @@ inline std::optional<bool> joint_answer(const Bound& first, const Bound& second,
   return answer;
 }
 
-/// A finding in words.
-struct Said {
+/// The message and help of a finding.
+struct FindingTexts {
   Message message;
   Message help;
 };
 
-/// Of a `for` that never moves on.
-inline Said step_of_zero() {
+/// For a `for` that never advances.
+inline FindingTexts step_of_zero() {
   return {texts::StepIsZero(), texts::WriteOrCountDown("step 1", "step -1")};
 }
 
-/// `step 0`, with its word: from behind the `end` of a loop to the end of its `step`.
+/// The span of `step 0` with its word: from the end of a loop's `end` to the end of its `step`.
 inline Span step_clause(std::string_view text, Span end, Span step) {
   return {static_cast<std::uint32_t>(text.find_first_not_of(" \t", end.end)), step.end};
 }
 
-/// Of two comparisons with one answer, and what was likely meant.
-inline Said one_answer(std::string_view test, bool answer, std::string_view meant) {
+/// For two comparisons with a constant result, and the likely intent.
+inline FindingTexts one_answer(std::string_view test, bool answer, std::string_view meant) {
   return {answer ? texts::AlwaysTrue(test) : texts::NeverTrue(test), texts::Write(meant)};
 }
 
-/// Of `a = b`, then `b = a`; `kept` is a name for the old value.
-inline Said lost_exchange(std::string_view a, std::string_view b, std::string_view kept) {
+/// For `a = b`, then `b = a`; `kept` is a name for the old value.
+inline FindingTexts lost_exchange(std::string_view a, std::string_view b, std::string_view kept) {
   return {texts::OldValueLost(a, b),
           texts::SaveItFirst(fmt::format("{} = {}", kept, a), fmt::format("{} = {}", a, b),
                              fmt::format("{} = {}", b, kept))};
 }
 
-/// Of a share that is divided first, and the same multiplied first.
-inline Said divides_first(std::string_view share, std::string_view meant) {
+/// For a percentage that divides first, and the same with the multiplication first.
+inline FindingTexts divides_first(std::string_view share, std::string_view meant) {
   return {texts::DiscardsRemainder(share), texts::MultiplyFirst(meant)};
 }
 
-/// Of a variable that is only ever multiplied.
-inline Said stays_zero(std::string_view name) {
+/// For a variable that is only multiplied.
+inline FindingTexts stays_zero(std::string_view name) {
   return {texts::StartsAtZero(name), texts::SetAboveLoop(fmt::format("{} = 1", name))};
 }
 
-/// Of a sum that a line of its loop sets back, and where that belongs.
-inline Said sum_restarts(std::string_view name, Message where) {
+/// For a sum that a line of its loop resets, and the place where the reset belongs.
+inline FindingTexts sum_restarts(std::string_view name, Message where) {
   return {texts::ResetInEveryIteration(name), std::move(where)};
 }
 

@@ -2,8 +2,8 @@
 
 #include "compiler/lint/lint_passes.h"
 #include "compiler/lint/sensor_tests.h"
+#include "compiler/text/basic_words.h"
 #include "compiler/text/rules.h"
-#include "compiler/text/words.h"
 #include "spec/limits.h"
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 
 namespace orb::compiler {
 
-/// What can be said of the text without computing anything.
+/// Lints the text without evaluating it. Large because each rule about the text has its own member.
 class TextPass {
 public:
   TextPass(const Program& program, const Flow& flow, const Target& target, Findings& findings)
@@ -37,12 +37,12 @@ private:
 
   void add_empty_line(const Line& line);
 
-  /// Whether some jump names the line; the jumps are sorted once, when this is first asked.
+  /// True if a jump names the line. The first call sorts the jumps.
   bool is_target(std::uint32_t number);
 
   void check_duplicates();
 
-  /// A number between those of the neighbours that no line and no jump has.
+  /// A number between those of the neighbours that no line or jump uses.
   std::optional<std::uint32_t> free_number(std::uint32_t index);
 
   // ---- statements
@@ -79,12 +79,12 @@ private:
 
   void check_read(const StatementNode& statement);
 
-  // ---- blanks
+  // ---- spaces
 
-  /// A word stands between two expressions: blanks belong on both of its sides.
+  /// Checks for spaces on both sides of a word between two expressions.
   void check_gap(std::uint32_t begin, std::uint32_t end, std::string_view word);
 
-  /// Where a blank should be at `at`, and where one can be put.
+  /// Checks for a space at `at`; the fix inserts it at `gap`.
   void check_side(std::uint32_t at, std::uint32_t gap, std::string_view word) {
     if (!is_blank(program_.text[at]))
       add_missing_blank(gap, texts::MissingSpaceNextTo(word));
@@ -94,7 +94,7 @@ private:
 
   // ---- expressions
 
-  /// Whether there may be something to say of a node; of most there is nothing.
+  /// True if a node may have a finding; most cannot.
   bool is_remarkable(const Node& node) const {
     if (node.kind != NodeKind::System)
       return node.kind > NodeKind::Binary || node.overflow;
@@ -103,7 +103,7 @@ private:
 
   void check_node(const Node& node);
 
-  /// Whether the sign of a step stands here, which is documented.
+  /// True if the sign after `step` is here: it is documented.
   bool follows_step(std::uint32_t at) const;
 
   void check_depth(const Node& node);
@@ -112,28 +112,28 @@ private:
 
   void check_system(const Node& node);
 
-  /// the operand is the whole expression that follows, which reads otherwise where a weak
-  /// operator follows, or anything after a parenthesis.
+  /// the operand is the whole expression that follows. That surprises if a weak operator
+  /// follows, or anything after a parenthesis.
   void check_operand(const Node& node, const Node& operand);
 
-  /// How many levels a subtree has, and at most can get by fixes: functions and signs count twice.
-  /// The operand that an operand of a function begins with, up to the first operator of low level,
-  /// or any where `all`.
+  /// The first operand within the operand of a function, up to the first operator of low level, or
+  /// of any level if `all`.
   const Node& first_operand(const Node& root, bool all) const;
   std::string_view inner_text(const Node& node) const;
   bool is_constant(const Node& root) const;
   bool holds_call(const Node& root) const;
 
+  /// The greatest depth of a subtree after fixes: functions and signs count twice.
   int deepest_below(const Node& root) const;
 
   const Program& program_;
   const Flow& flow_;
   const Target& target_;
   Findings& findings_;
-  std::vector<std::uint32_t> targets_; ///< line numbers that something names, ascending
+  std::vector<std::uint32_t> targets_; ///< line numbers named by jumps, ascending
   bool targets_sorted_ = false;
-  bool blank_missing_ = false;         ///< on this line, and reported
-  std::vector<std::uint32_t> offered_; ///< numbers for lines whose own are taken
+  bool blank_missing_ = false;         ///< a missing space was reported on this line
+  std::vector<std::uint32_t> offered_; ///< numbers offered for lines with duplicate numbers
 };
 
 } // namespace orb::compiler

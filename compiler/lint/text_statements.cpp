@@ -46,7 +46,7 @@ void TextPass::check_if(const StatementNode& statement) {
   if (condition.second)
     check_gap(condition.first.right.span.end, condition.second->left.span.begin,
               condition.joint->kind == ItemKind::And ? "and" : "or");
-  // A branch without text has no side that a blank could stand on.
+  // An empty branch has no side for a space.
   const auto& then = program_.statements[statement.then_branch].span;
   if (then.size() == 0)
     return;
@@ -95,9 +95,9 @@ void TextPass::add_empty_target(const Item& target, std::uint32_t index) {
   }
 }
 
-/// The only number of a line with a digit more, or one less: `goto 200` for `goto 20`.
+/// The only line number with one digit more or less: `goto 200` for `goto 20`.
 std::optional<std::uint32_t> TextPass::number_like(const Item& target) const {
-  constexpr std::size_t most = 256; // lines; a typing mistake is found among few
+  constexpr std::size_t most = 256; // lines; beyond, a typo has too many candidates
   const auto written = program_.text_of(target.span);
   std::optional<std::uint32_t> meant;
   if (flow_.numbers.size() > most)
@@ -143,7 +143,7 @@ void TextPass::check_print(std::span<const Item> items) {
   if (std::none_of(items.begin(), items.end(),
                    [](const Item& item) { return item.kind == ItemKind::Semicolon; }))
     return;
-  std::string spaced; // the list with a blank in the place of each
+  std::string spaced; // the list with a space for each
   bool blank = false;
   for (std::size_t i = 0; i < items.size(); ++i) {
     const bool inside = items[i].kind == ItemKind::Semicolon && i + 1 < items.size();
@@ -165,7 +165,7 @@ void TextPass::check_single_quotes(const StatementNode& statement, Span comment)
   const auto last = text.find_last_of('\'');
   if (last == 0 || last == std::string_view::npos)
     return;
-  const auto rest = trim(text.substr(last + 1)); // `, A`: what else was to be printed
+  const auto rest = trim(text.substr(last + 1)); // `, A`: the rest of the print list
   if (!rest.empty() && rest[0] != ',' && rest[0] != ';')
     return;
   auto quoted = std::string(text.substr(0, last + 1));
@@ -185,7 +185,7 @@ void TextPass::add_semicolon(const Item& semicolon, const Item& next, const std:
   auto& d =
       findings_.add(rules::SemicolonInPrint, semicolon.span, texts::OnlyAtTheEnd(';', "print"),
                     texts::WriteWithSpaces(fmt::format("print {}", spaced), ','));
-  // A blank keeps what stands on both sides apart; a minus sign would join them.
+  // Insert a space to keep both sides apart, but not before a minus sign, which would join them.
   if (program_.text[next.span.begin] != '-')
     d.fix = single_fix(texts::WriteSpace(), {semicolon.span.begin, next.span.begin}, " ");
 }
@@ -221,7 +221,7 @@ void TextPass::check_gap(std::uint32_t begin, std::uint32_t end, std::string_vie
 
 void TextPass::add_missing_blank(std::uint32_t at, Message message) {
   if (blank_missing_)
-    return; // one for a line is enough
+    return; // one finding per line is enough
   blank_missing_ = true;
   auto& d = findings_.add(rules::MissingBlank, {at, at}, std::move(message));
   d.fix = single_fix(texts::InsertSpace(), {at, at}, " ");
@@ -277,8 +277,8 @@ void TextPass::add_negative(const Node& node) {
   const auto version = target_.version;
   if (version == spec::BasicVersion::V0_9)
     d.severity = Severity::Error;
-  // Behind an operator, or before one that binds more strongly than minus, only parentheses keep
-  // the sign with its operand.
+  // After an operator, or before one that binds more strongly than minus, only parentheses keep the
+  // sign with its operand.
   auto before = node.span.begin;
   while (before > 0 && is_blank(program_.text[before - 1]))
     --before;
@@ -296,11 +296,11 @@ void TextPass::add_negative(const Node& node) {
     return;
   }
   d.help = texts::Write(fmt::format("(0{})", program_.text_of(node.span)));
-  // Each function around it may get parentheses in the same round, which also count.
+  // Each enclosing function may get parentheses in the same round, which count too.
   if (2 * node.depth + 1 + deepest_below(node) <= spec::value_of(spec::Limit::ExpressionLevels))
     d.fix = Fix{d.help,
                 {{{begin, begin}, "(0"}, {{node.span.end, node.span.end}, ")"}},
-                // `N -- 1`: one sign too many, more often than a number below 0
+                // `N -- 1` is more often a sign too many than a negative number.
                 begin > 0 && program_.text[begin - 1] == '-' ? Safety::Unsafe : Safety::Safe};
 }
 
@@ -329,15 +329,15 @@ void TextPass::check_operand(const Node& node, const Node& operand) {
   const auto less = fmt::format("({} {}){}", row.word, inner_text(first), rest);
   auto& d = findings_.add(rules::FunctionOperand, node.span,
                           texts::AppliesToAllOf(row.word, program_.text_of(operand.span)));
-  // A call as other languages write it, numbers that nobody would leave to the robot to add up, or
-  // a sum of calls.
+  // A call as in other languages, constants that nobody would leave to the robot to add, or a sum
+  // of calls.
   if (parenthesis || is_constant(operand) || holds_call(operand)) {
     d.help = texts::WriteOrForAll(less, all);
     d.fix = single_fix(d.help, {node.span.begin, operand.span.end}, less, Safety::Unsafe);
     return;
   }
   d.help = texts::WriteOrForLess(all, less);
-  // Other fixes of the same round may put parentheses around and into this operand.
+  // Other fixes of the same round may put parentheses around this operand and into it.
   const int levels = node.depth + 1 + (node.depth - 1) + deepest_below(operand);
   if (levels <= spec::value_of(spec::Limit::ExpressionLevels))
     d.fix = Fix{texts::PutInParentheses(),

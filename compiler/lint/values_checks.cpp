@@ -5,7 +5,7 @@ namespace orb::compiler {
 
 void ValuesPass::check_lines() {
   bool falls = false;
-  bool runs = true; // as far as tests of known values tell
+  bool runs = true; // as far as tests of known values show
   forget_letters();
   for (std::uint32_t i = 0; i < flow_.code.size(); ++i) {
     const auto& code = flow_.code[i];
@@ -25,10 +25,10 @@ void ValuesPass::check_lines() {
     else
       for (const auto& one : program_.whole(statement))
         note_uses(one);
-    falls = code.falls && !statement.error; // a line that does not parse may set anything
+    falls = code.falls && !statement.error; // a line that does not parse may assign anything
     const auto jumps = flow_.jumps_of(code);
     if (!jumps.empty() || statement.error)
-      counting_ = 0; // the loop may be left early
+      counting_ = 0; // the loop may exit early
     for (const auto& jump : jumps)
       if (jump.call)
         falls = false; // the subroutine may change everything
@@ -119,14 +119,14 @@ std::optional<Range> ValuesPass::usual_values(const spec::VariableInfo& row) con
     return battery;
   if (row.unit != "ms")
     return std::nullopt;
-  std::optional<Range> time; // that the program sets
+  std::optional<Range> time; // assigned by the program
   for (const auto& place : flow_.all(spec::Statement::Let)) {
     const auto let = program_.as<LetView>(program_.statements[place.statement]);
     const auto number = number_in(program_, let.expression);
     if (let.variable.kind == ItemKind::System && number &&
         static_cast<spec::Variable>(let.variable.value) == row.variable)
       if (std::exchange(time, Range{0, *number}).value_or(Range{0, *number}) != Range{0, *number})
-        return std::nullopt; // which of its numbers it counts from there nobody knows
+        return std::nullopt; // it is unknown which number it counts from
   }
   return time;
 }
@@ -155,7 +155,7 @@ void ValuesPass::check_may_leave(const Item& value, std::string_view word,
                                  const spec::Parameter& parameter) {
   const auto& range = range_of(value);
   if (range.lo == Range{}.lo || range.hi == Range{}.hi)
-    return; // nobody knows by how much
+    return; // the amount is unknown
   const auto kind = program_.nodes[value.value].kind;
   const bool single =
       kind == NodeKind::Letter || kind == NodeKind::System || kind == NodeKind::Group;
@@ -191,7 +191,7 @@ void ValuesPass::add_out_of_range(const Item& value, std::string_view word,
   if (std::any_of(nodes.begin(), nodes.end(), [&](const Node& node) {
         return node.kind == NodeKind::Letter && (now_.narrowed & bit(node.what)) != 0;
       }))
-    d.severity = Severity::Warning; // there may be no value that gets past the test
+    d.severity = Severity::Warning; // perhaps no value passes the test
   const bool written = std::all_of(nodes.begin(), nodes.end(), [](const Node& node) {
     return node.kind == NodeKind::Number || node.kind == NodeKind::Negate;
   });
@@ -270,12 +270,12 @@ void ValuesPass::check_arguments(const StatementNode& statement) {
     data_.left = conditional_ ? DataSet::unknown : data_.size;
 }
 
-/// How a program writes the comma between two values: `, ` or `,`.
+/// The separator that the program writes between two values: `, ` or `,`.
 std::string_view ValuesPass::comma_of(std::span<const Item> arguments) const {
   return program_.text_of({arguments[0].span.end, arguments[1].span.begin});
 }
 
-/// A speed that only a heading can be, and a heading that a speed can be.
+/// A speed that is valid only as a heading, with a heading that is valid as a speed.
 bool ValuesPass::check_swapped(std::span<const Item> arguments) {
   const auto parameters = spec::info(spec::Statement::Goroll).parameters();
   const auto heading = range_of(arguments[0]);
@@ -300,7 +300,7 @@ bool ValuesPass::check_swapped(std::span<const Item> arguments) {
   return true;
 }
 
-/// A speed below 0: the ball drives back when it is headed the other way.
+/// A negative speed: the ball drives backward if the heading is reversed.
 bool ValuesPass::check_backward(const StatementNode& statement) {
   const auto arguments = program_.items_of(statement);
   const auto parameters = spec::info(spec::Statement::Goroll).parameters();
@@ -327,7 +327,7 @@ void ValuesPass::add_missing_go(const StatementNode& statement, const Item& last
   d.fix = single_fix(texts::AddGoValue(), last.span,
                      fmt::format("{}{}{}", program_.text_of(last.span),
                                  comma_of(program_.items_of(statement)), brakes ? 0 : 1),
-                     Safety::Unsafe); // which of the three is missing nobody knows
+                     Safety::Unsafe); // it is unknown which of the three is missing
 }
 
 void ValuesPass::check_flags(const Item& value) {

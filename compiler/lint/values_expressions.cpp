@@ -3,7 +3,7 @@
 namespace orb::compiler {
 namespace {
 
-/// By variable: among those that reading resets, the how manieth it is.
+/// By variable: its index among the variables that reading resets.
 constexpr auto clearing_slots = [] {
   std::array<std::uint8_t, spec::variables.size()> slots{};
   std::uint8_t next = 0;
@@ -78,7 +78,7 @@ bool ValuesPass::is_exact_sum(const Node& node, std::uint32_t right) const {
   case spec::Operator::Subtract:
   case spec::Operator::Multiply: return a.constant() || b.constant();
   case spec::Operator::Divide: return b.constant();
-  case spec::Operator::Remainder: // two turns at least, whatever the steps
+  case spec::Operator::Remainder: // by two turns or more, whatever the steps
     return a.constant()
                ? b.constant()
                : b.constant() && (std::int64_t{a.hi} - a.lo) / 2 >= std::abs(std::int64_t{b.lo});

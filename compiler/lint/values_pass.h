@@ -14,10 +14,10 @@
 
 namespace orb::compiler {
 
-/// By variable, whether it takes all its values: directions, switches and what clients send; a ball
-/// is never as fast as its sensors could tell.
+/// By variable: true if all its values occur, as for directions, switches and values from clients.
+/// A ball never reaches the limits of its other sensors.
 inline constexpr auto reaches_ends = [] {
-  constexpr std::int32_t byte = 255; // the greatest value of what a client sends
+  constexpr std::int32_t byte = 255; // the greatest value that a client sends
   std::array<bool, spec::variables.size()> table{};
   for (std::size_t i = 0; i < table.size(); ++i) {
     const auto& row = spec::variables[i];
@@ -27,65 +27,66 @@ inline constexpr auto reaches_ends = [] {
   return table;
 }();
 
-/// How a letter gets its values, over the whole program.
+/// The uses of a letter in the whole program.
 struct Letter {
-  const Item* first_set = nullptr;  ///< null where nothing sets it
-  const Node* first_used = nullptr; ///< null where nothing reads it
+  const Item* first_set = nullptr;  ///< null if it is never assigned
+  const Node* first_used = nullptr; ///< null if it is never read
   bool assigned = false;            ///< by let, read or input
   bool counted = false;             ///< by for
 };
 
-/// What is known about the values that `read` takes.
+/// The state of the data that `read` consumes.
 struct DataSet {
   static constexpr std::uint32_t unknown = none;
 
   std::uint32_t size = unknown;
   std::uint32_t left = unknown;
-  const StatementNode* unread = nullptr; ///< the `data` that nothing has read yet
+  const StatementNode* unread = nullptr; ///< the first `data` not read yet
 };
 
-/// What is known of a node of an expression.
+/// The analysis state of an expression node.
 struct Known {
   Range range;
-  bool exact = false; ///< both ends of the range are values that it takes
+  bool exact = false; ///< both ends of the range are values that occur
 };
 
-/// What is known of a `for`, over all times that it runs.
+/// The state of a `for`, over all its executions.
 struct Loop {
   std::uint32_t code = 0;   ///< a line of code
-  std::uint32_t letter = 0; ///< that it counts in
+  std::uint32_t letter = 0; ///< its counter
   Range end;
   Range step;
-  Range body; ///< what its letter is in the body
+  Range body; ///< the range of its letter in the body
 };
 
-/// Follows the values of letters along all ways of the program, then goes through its lines in the
-/// order of the text and says what is wrong with the values that expressions have there.
+/// Propagates the values of letters along all paths, then walks the lines in text order and reports
+/// bad values. Large because each check of a value has its own member, and all of them need the
+/// state of the letters at the current line.
 class ValuesPass {
 public:
   ValuesPass(const Program& program, const Flow& flow, const Target& target, Findings& findings)
       : program_(program), flow_(flow), target_(target), findings_(findings),
         known_(program.nodes.size()), ways_(program, flow) {}
 
-  /// Carries values through straight runs of lines only, and forgets them where a jump comes in.
+  /// Propagates values only through straight runs of lines, and forgets them at jump targets.
   void run();
 
-  /// Whether following all ways could say more: something that is not known here is set, somewhere,
-  /// to what is not allowed here.
+  /// True if following all paths could find more: a letter that is unknown here is somewhere
+  /// assigned a value that is not allowed here.
   bool may_say_more();
 
-  /// The same with all ways followed.
+  /// The same, following all paths.
   void run_followed();
 
 private:
-  /// An expression that nothing is said about, as its letters are not known.
+  /// An expression without a finding because its letters are unknown.
   struct Doubt {
     std::uint32_t root;
-    std::int64_t least; ///< what is allowed
+    std::int64_t least; ///< least allowed value
     std::int64_t greatest;
   };
 
-  /// A letter that is not known here, compared by `=`.
+  /// A letter, unknown here, compared by `=`.
   struct Question {
     std::uint32_t letter;
     std::int32_t number;
@@ -93,11 +94,10 @@ private:
 
   void doubt(const Item& value, std::int64_t least, std::int64_t greatest);
 
-  /// Notes what a letter is set to, where that is known by itself.
+  /// Records the value assigned to a letter if it is known without context.
   void note_given(std::uint32_t letter, Range range, const Node* root);
 
-  /// Whether a value is a sum wrapped around by `%`, which is never negative where its parts are
-  /// not.
+  /// True if a value is a sum wrapped by `%`, which is non-negative if its terms are.
   bool is_wrapped(const Node& root) const;
 
   // ---- letters
@@ -106,7 +106,7 @@ private:
 
   void collect_set(const StatementNode& statement);
 
-  /// Whether some `let` of the letter clears a sensor by reading it, which then is the purpose.
+  /// True if some `let` of the letter only serves to clear a sensor by reading it.
   bool clears(std::uint32_t letter) const;
 
   bool reads_clearing(const Item& expression) const;
@@ -114,24 +114,24 @@ private:
   void check_letters();
   std::string meant_by(std::uint32_t letter) const;
 
-  /// Forgets what letters are.
+  /// Forgets the values of all letters.
   void forget_letters();
 
   void set_letter(std::uint32_t index, Range range) { set_letter(index, range, 0, 0); }
-  /// `exact` and `dense`: 1 or 0.
+  /// `exact` and `dense` are 1 or 0.
   void set_letter(std::uint32_t index, Range range, LetterSet exact, LetterSet dense);
 
-  // ---- ways
+  // ---- paths
 
   void follow();
 
   void follow(std::uint32_t begin);
 
-  /// The values that `read` can take.
+  /// Finds the values that `read` can return.
   void find_data();
 
-  /// Runs a statement of a line on what is known, and looks for mistakes in it unless the ways are
-  /// still being followed; whether the line below can be next.
+  /// Executes a statement of a line on the current state; reports mistakes once the fixed point is
+  /// reached. Returns true if the line below can follow.
   bool go(const StatementNode& statement, std::uint32_t code);
 
   bool go_branches(const StatementNode& statement, std::uint32_t code);
@@ -139,7 +139,8 @@ private:
   bool go_branch(const IfView& condition, Holds holds, const StatementNode* branch,
                  std::uint32_t code);
 
-  /// Narrows the letters of a condition to where it holds or not; false where that cannot be.
+  /// Narrows the letters of a condition to where it holds or not; returns false if that is
+  /// impossible.
   bool assume(const IfView& condition, Holds holds);
 
   bool assume(const Comparison& comparison, Holds holds);
@@ -148,18 +149,18 @@ private:
 
   void set(const LetView& let);
 
-  /// All that the letter of a loop is in its body, where nothing else sets it.
+  /// The range of a loop's letter in its body, if nothing else assigns it.
   Range rounds(const ForView& loop, const Range& start, const Range& end, const Range& step) const;
 
   void begin_loop(const ForView& loop, std::uint32_t code);
 
-  /// `next` leads back to the line below each `for` of its letter that can be open.
+  /// Leads `next` back to the line below each `for` of its letter that can be open.
   bool end_loop(const NextView& next);
 
   bool followed_or_following() const { return following_ || followed_; }
 
-  /// Goes back to the body of a loop; what its letter is where the loop is over, if it can be.
-  std::optional<Range> next_of(const Loop& loop, const Letters& before);
+  /// Returns to the body of a loop; gives the range of its letter after the loop, if it can end.
+  std::optional<Range> next_of(const Loop& loop, const LetterFacts& before);
 
   void read(std::span<const Item> variables);
 
@@ -167,12 +168,12 @@ private:
 
   // ---- lines
 
-  /// Forgets what was noted on the way: the line can be reached from elsewhere.
+  /// Forgets the notes on the current run of lines: this line can be reached from elsewhere.
   void begin_block();
 
   void check_lines();
 
-  /// Takes up what is known of the letters at a line, once all ways have been followed.
+  /// Loads the state of the letters at a line, once all paths have been followed.
   void take_up(std::uint32_t code);
 
   const Range& range_of(const Item& expression) const { return known_[expression.value].range; }
@@ -184,8 +185,8 @@ private:
   }
   void check_outside(const Item& value, std::string_view word, const spec::Parameter& parameter);
 
-  /// What an expression of numbers and a sensor is often enough, in any program that drives, where
-  /// that is known of the sensor. A program that compares it may know what it does.
+  /// The usual range of an expression of numbers and one sensor in a program that drives, if known
+  /// for that sensor. Nothing if the program compares the sensor: then it may know its range.
   std::optional<Range> usual_range(const Item& value) const;
   std::optional<Range> usual_values(const spec::VariableInfo& row) const;
   bool is_compared(spec::Variable variable) const;
@@ -197,10 +198,10 @@ private:
 
   void add_out_of_range(const Item& value, std::string_view word, const spec::Parameter& parameter);
 
-  /// A loop that nothing leaves early reaches both ends of its range, and so does what is computed
-  /// from its letter by `+`, `-` and `*` alone: whether a value is that.
+  /// True if a value is computed by `+`, `-` and `*` alone from the letter of a loop without an
+  /// early exit. Such a loop reaches both ends of its range, and so does the value.
   bool is_counted(const Item& value) const;
-  /// Whether it said that a loop leaves the range of a parameter.
+  /// Reports a loop that leaves the range of a parameter; returns true if it did.
   bool check_loop_range(const Item& value, std::string_view word, const spec::Parameter& parameter);
 
   static bool keeps_ends(const Node& node);
@@ -214,7 +215,7 @@ private:
 
   void check_flags(const Item& value);
 
-  /// The line that runs after waking lies in flash; that is this program only when it is meant for
+  /// The line to run after waking is in flash; that is this program only if it is written for
   /// flash.
   void check_sleep(const Item& value);
 
@@ -222,7 +223,7 @@ private:
 
   void check_for(const ForView& loop);
 
-  /// A variable gets a value that is not known.
+  /// Marks the variables as unknown.
   void forget(std::span<const Item> variables);
 
   void check_indexed(std::span<const Item> variables);
@@ -234,8 +235,8 @@ private:
 
   void check_condition(const IfView& condition);
 
-  /// A letter that holds what a sensor or `rnd` gave, compared with what that never is. Sensors
-  /// themselves are compared elsewhere.
+  /// A letter with the result of a sensor or `rnd`, compared with a value that it never has.
+  /// Sensors themselves are checked elsewhere.
   void check_answer(const Comparison& comparison);
 
   void check_print(const StatementNode& statement);
@@ -250,10 +251,10 @@ private:
 
   // ---- expressions
 
-  /// Computes nodes, and looks for mistakes in them unless the ways are still being followed.
+  /// Computes nodes; reports mistakes once the fixed point is reached.
   void compute(std::uint32_t begin, std::uint32_t end);
 
-  /// The range of an expression, computed now.
+  /// Recomputes the range of an expression.
   const Range& compute(const Item& item) {
     compute(program_.nodes[item.value].first, item.value + 1);
     return range_of(item);
@@ -272,7 +273,7 @@ private:
     first = first == nullptr ? &letter : first;
   }
 
-  /// Of a statement that cannot run: it still uses what it names.
+  /// Records the uses in a statement that cannot run.
   void note_uses(const StatementNode& statement);
 
   void note_clearing(const Node& node, const spec::VariableInfo& row);
@@ -290,34 +291,34 @@ private:
   std::array<Letter, most_letters> letters_{};
   std::vector<Known> known_; ///< by node
 
-  // what is known on the way
-  Letters now_;
-  LetterSet set_ = 0; ///< letters that something sets
-  Letters unknown_;   ///< where nothing is known but that letters are 0 which nothing sets
+  // the current state
+  LetterFacts now_;
+  LetterSet set_ = 0;   ///< letters with an assignment
+  LetterFacts unknown_; ///< the unknown state, except that letters without an assignment are 0
   LetterFlow ways_;
-  std::vector<Loop> loops_; ///< that have been entered
+  std::vector<Loop> loops_; ///< loops entered so far
   std::vector<Doubt> doubts_;
   std::vector<Question> questions_;
-  bool index_doubt_ = false; ///< `Z` is used while `Y` is not known
+  bool index_doubt_ = false; ///< `Z` is used while `Y` is unknown
   std::array<std::optional<Range>, most_letters>
-      given_{};             ///< what is known by itself, over all lines
-  Range data_range_;        ///< of the values of all `data`
-  std::uint32_t block_ = 0; ///< the line from which `now_` is followed
-  LetterSet tested_ = 0;    ///< letters that the condition of this line narrows
-  LetterSet moved_ = 0;     ///< letters that became something else in a branch of this line
+      given_{};             ///< values known without context, over all lines
+  Range data_range_;        ///< of all `data` values
+  std::uint32_t block_ = 0; ///< the line where the current run of lines began
+  LetterSet tested_ = 0;    ///< letters narrowed by the condition of this line
+  LetterSet moved_ = 0;     ///< letters changed in a branch of this line
   bool following_ = false;
   bool followed_ = false;
-  std::optional<std::int32_t> index_begins_; ///< where the loop around counts in `Y`: from there
+  std::optional<std::int32_t> index_begins_; ///< start of the enclosing loop if it counts in `Y`
 
   DataSet data_;
-  LetterSet cleared_ = 0;         ///< variables that are 0 because they have been read
-  LetterSet cleared_on_line_ = 0; ///< the same, by this line
-  LetterSet counting_ = 0;        ///< letters of loops that reach their ends for certain
-  std::uint32_t line_ = 0;        ///< that is looked at
+  LetterSet cleared_ = 0;         ///< variables that are 0 because they were read
+  LetterSet cleared_on_line_ = 0; ///< the same, on this line
+  LetterSet counting_ = 0;        ///< letters of loops that certainly reach their ends
+  std::uint32_t line_ = 0;        ///< the current line
   bool conditional_ = false;      ///< in a branch
 
   bool indexed_used_ = false;
-  bool in_order_ = true; ///< nothing above leads away and back, or past lines
+  bool in_order_ = true; ///< no jump above leads away and back, or past lines
   bool before_y_ = false;
   std::optional<bool> has_data_;
 };

@@ -1,4 +1,4 @@
-// What is printed, asked for and read.
+// Checks of print, input and read.
 
 #include "compiler/lint/values_pass.h"
 

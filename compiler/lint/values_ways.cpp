@@ -6,7 +6,7 @@ void ValuesPass::doubt(const Item& value, std::int64_t least, std::int64_t great
   if (followed_)
     return;
   if (doubts_.empty())
-    doubts_.reserve(flow_.code.size()); // once, where there are any
+    doubts_.reserve(flow_.code.size()); // once, if there are any
   doubts_.push_back({value.value, least, greatest});
 }
 
@@ -36,7 +36,7 @@ void ValuesPass::collect_letters() {
        {spec::Statement::Let, spec::Statement::For, spec::Statement::Read, spec::Statement::Input})
     for (const auto& place : flow_.all(kind))
       collect_set(program_.statements[place.statement]);
-  unknown_ = Letters::zero();
+  unknown_ = LetterFacts::zero();
   unknown_.exact &= ~set_;
   for (std::uint32_t i = 0; i < program_.letters; ++i)
     if ((set_ & bit(i)) != 0)
@@ -75,7 +75,7 @@ bool ValuesPass::reads_clearing(const Item& expression) const {
 }
 
 void ValuesPass::check_letters() {
-  const bool silent = !program_.faults.empty(); // a line that does not parse may hold the rest
+  const bool silent = !program_.faults.empty(); // a line that does not parse may contain the rest
   for (std::uint32_t i = 0; i < program_.letters && !silent; ++i) {
     const auto& letter = letters_[i];
     const bool used = letter.first_used != nullptr;
@@ -92,8 +92,8 @@ void ValuesPass::check_letters() {
   }
 }
 
-/// What stands for a letter that nothing sets: a digit that looks like it, or the variable of the
-/// loop around it, which nothing reads; empty where neither is so.
+/// The likely intent for a letter that is never assigned: a digit that looks like it, or the unused
+/// variable of the enclosing loop; empty if neither applies.
 std::string ValuesPass::meant_by(std::uint32_t letter) const {
   const auto& use = letters_[letter].first_used->span;
   const auto written = program_.text_of(use);
@@ -139,7 +139,7 @@ void ValuesPass::set_letter(std::uint32_t index, Range range, LetterSet exact, L
 void ValuesPass::follow() {
   following_ = true;
   find_data();
-  ways_.enter(0, Letters::zero());
+  ways_.enter(0, LetterFacts::zero());
   for (auto code = ways_.take(); code != none; code = ways_.take())
     follow(code);
   following_ = false;
@@ -179,7 +179,7 @@ bool ValuesPass::go(const StatementNode& statement, std::uint32_t code) {
     return true;
   }
   const auto& row = spec::info(statement.kind);
-  if (row.form != spec::Form::Loop) // which sets its letter before it computes its end
+  if (row.form != spec::Form::Loop) // which assigns its letter before it computes its end
     compute(statement.nodes_begin, statement.nodes_end);
   if (row.after == spec::After::Waits)
     cleared_ = 0;
@@ -221,7 +221,7 @@ bool ValuesPass::go(const StatementNode& statement, std::uint32_t code) {
     else if (statement.kind == spec::Statement::Return)
       ways_.leave(code, now_);
     else if (statement.kind == spec::Statement::Reset)
-      ways_.enter(0, Letters::zero());
+      ways_.enter(0, LetterFacts::zero());
     return row.after != spec::After::Ends;
   }
   return true;
@@ -245,7 +245,7 @@ bool ValuesPass::go_branches(const StatementNode& statement, std::uint32_t code)
   if (then_falls && else_falls) {
     const auto looked_at = now_.exact | after.exact;
     join_into(now_, after, moved_);
-    // What a test looks at and both ways keep is treated by the other statement somehow.
+    // A letter that is tested and kept on both paths is probably handled by the other statement.
     now_.exact &= ~(looked_at & tested_);
   } else if (then_falls) {
     now_ = after;
@@ -288,7 +288,7 @@ bool ValuesPass::assume(const Comparison& comparison, Holds holds) {
   if (!left_where)
     return false;
   narrow(comparison.left, left, *left_where);
-  if (program_.nodes[comparison.right.value].kind != NodeKind::Number) // which stays what it is
+  if (program_.nodes[comparison.right.value].kind != NodeKind::Number) // a number never changes
     narrow(comparison.right, right, *where(mirrored(relation), holds, right, left));
   return true;
 }
@@ -384,7 +384,7 @@ bool ValuesPass::end_loop(const NextView& next) {
   return true;
 }
 
-std::optional<Range> ValuesPass::next_of(const Loop& loop, const Letters& before) {
+std::optional<Range> ValuesPass::next_of(const Loop& loop, const LetterFacts& before) {
   const auto stepped = apply(spec::Operator::Add, before.ranges[loop.letter], loop.step);
   const bool fixed = loop.step.lo > 0 || loop.step.hi < 0;
   const auto over = loop.step.lo > 0 ? spec::Relation::Greater : spec::Relation::Less;
@@ -413,7 +413,7 @@ bool ValuesPass::jump(const StatementNode& statement, std::uint32_t code) {
     return true;
   }
   const auto before = now_;
-  std::optional<Letters> after;
+  std::optional<LetterFacts> after;
   for (const auto& way : flow_.jumps_of(flow_.code[code])) {
     if (way.item < statement.items_begin || way.item >= statement.items_end || way.to == none)
       continue;

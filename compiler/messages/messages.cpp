@@ -2,9 +2,9 @@
 
 #include "base/text/suggest.h"
 #include "base/text/text.h"
+#include "compiler/text/basic_words.h"
 #include "compiler/text/rules.h"
 #include "compiler/text/texts.h"
-#include "compiler/text/words.h"
 #include "repair/idioms.h"
 #include "spec/limits.h"
 
@@ -27,7 +27,7 @@ std::vector<std::string_view> statement_words() {
   return all;
 }
 
-/// The names of variables that can be set, or of all, with functions.
+/// The names of variables: those that can be assigned, or all, with functions.
 std::vector<std::string_view> names(bool to_set) {
   std::vector<std::string_view> all;
   for (const auto& row : spec::variables)
@@ -39,7 +39,7 @@ std::vector<std::string_view> names(bool to_set) {
   return all;
 }
 
-/// One fault with the text around it.
+/// Explains one fault from the text around it.
 class Explainer {
 public:
   Explainer(const Program& program, const Fault& fault)
@@ -93,7 +93,8 @@ public:
       return make(rules::NestedIf, texts::CannotBeNested("if"), texts::JoinComparisons("and"));
     case Reason::ExpectedQuote:
       return make(rules::SyntaxError, texts::UnterminatedString(), texts::AddQuote());
-    case Reason::MissingNumber: // never here: said of all lines at once (lint/lint_numbers.cpp)
+    case Reason::MissingNumber: // cannot occur here: one finding for all lines
+                                // (lint/lint_numbers.cpp)
     case Reason::ExpectedStatement: break;
     }
     return token_ == ":" ? colon() : expected(texts::AStatement());
@@ -105,7 +106,7 @@ private:
   Diagnostic make(const Rule& rule, Message message, Message help = {}) const {
     return finding(rule, fault_.span, std::move(message), std::move(help));
   }
-  /// What was wanted, and what stands there.
+  /// Says what was expected and what was found.
   Diagnostic found(Message problem) const {
     return make(rules::SyntaxError, token_.empty() ? texts::FoundEnd(std::move(problem))
                                                    : texts::Found(std::move(problem), token_));
@@ -113,7 +114,7 @@ private:
   Diagnostic expected(Message what) const { return found(texts::Expected(std::move(what))); }
   Diagnostic expected_code(std::string_view text) const { return found(texts::ExpectedCode(text)); }
 
-  /// Where the characters before `offset` begin that are all so.
+  /// The start of the run of characters before `offset` that satisfy `is`.
   template <typename Is>
   std::uint32_t back(std::uint32_t offset, Is is) const {
     while (offset > line_.span.begin && is(text_[offset - 1]))
@@ -130,7 +131,7 @@ private:
            (token_.empty() || token_ == "else");
   }
 
-  /// How many values the statement takes, and how many were found: more where that is nothing.
+  /// Reports how many values the statement takes and how many were found; no `count` means more.
   Diagnostic takes(std::optional<std::uint32_t> count) const {
     const auto word = row().word;
     const auto most = row().parameters().size();
@@ -170,7 +171,7 @@ private:
     return d;
   }
 
-  /// That a name is written otherwise, or what variables are named.
+  /// Says that a name is spelt differently, or how variables are named.
   Message spelled(const std::vector<std::string_view>& known) const {
     const auto best = closest(token_, known);
     return best && equal_words(*best, token_) ? texts::WriteBecause(*best, texts::CaseSensitive())
@@ -203,7 +204,7 @@ private:
                : expected(texts::AnExpression());
   }
 
-  /// A word inside of an expression that means nothing there.
+  /// An unknown word inside an expression.
   Diagnostic unknown_name() const {
     return make(rules::SyntaxError, texts::NeitherVariableNorFunction(token_),
                 spelled(names(false)));
@@ -251,7 +252,7 @@ private:
     return token_ == "." ? not_whole() : expected_code(")");
   }
 
-  /// `1.5` and `0x1F`.
+  /// Reports `1.5` and `0x1F`.
   Diagnostic not_whole() const {
     auto end = fault_.span.end;
     while (end < line_.span.end && (is_digit(text_[end]) || is_letter(text_[end])))
@@ -289,7 +290,7 @@ private:
   std::string_view token_;
 };
 
-/// A comment as other languages have it, on a line of its own.
+/// A comment in the syntax of another language, alone on its line.
 std::optional<Diagnostic> foreign_comment(const Program& program, const Fault& fault) {
   const auto end = program.lines[fault.line].span.end;
   const auto parts =

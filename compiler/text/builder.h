@@ -1,6 +1,6 @@
 #pragma once
 
-// What the rules of orbBasic's grammar write to. Private to parse.cpp.
+// The target of the grammar actions of orbBasic. Private to parse_basic.cpp.
 
 #include "base/text/text.h"
 #include "base/text/utf8.h"
@@ -17,20 +17,20 @@
 
 namespace orb::compiler {
 
-/// How deep the parser follows parentheses. The robot gives up far earlier; what lies between is
-/// kept as it is, so that the linter can speak about it.
+/// The depth to which the parser follows parentheses. The robot gives up far earlier; deeper levels
+/// are kept so that the linter can report them.
 inline constexpr std::uint8_t deepest = 32;
 
-/// Ends the parse of a line or of a branch: thrown by the rules and by Builder, caught in
-/// parse.cpp.
-struct Stop {
+/// Ends the parse of a line or a branch: thrown by the rules and by Builder, caught in
+/// parse_basic.cpp.
+struct ParseStop {
   Reason reason;
   const char* begin;
-  const char* end = nullptr; ///< null where the span is the token at `begin`
+  const char* end = nullptr; ///< null: the span is the token at `begin`
   std::uint32_t found = 0;
 };
 
-/// By character of ASCII.
+/// By ASCII character.
 inline constexpr auto operator_of = [] {
   std::array<std::uint8_t, INT8_MAX + 1> table{};
   for (const auto& row : spec::operators)
@@ -45,7 +45,7 @@ struct NumberRead {
   const char* end = nullptr;
 };
 
-/// Whether more digits than are always an integer are above that, or above a word.
+/// Decides if a number with many digits exceeds an integer or a word.
 inline void judge_size(std::string_view written, NumberRead& digits) {
   std::uint64_t value = 0;
   for (const char c : written) {
@@ -59,7 +59,7 @@ inline void judge_size(std::string_view written, NumberRead& digits) {
   }
 }
 
-/// Reads the digits at `begin`; the rest of the text ends at `end`.
+/// Reads the digits at `begin`; the text ends at `end`.
 inline NumberRead read_digits(const char* begin, const char* end) {
   constexpr std::ptrdiff_t small = std::numeric_limits<std::int32_t>::digits10;
   NumberRead digits;
@@ -77,7 +77,8 @@ inline std::uint32_t line_number(const NumberRead& digits) {
   return digits.above_word ? none - 1 : std::min(digits.value, none - 1);
 }
 
-/// Where the rules put what they find: straight into the program.
+/// Stores the parse results directly in the program. Large because each thing that the grammar
+/// recognises has its own member.
 class Builder {
 public:
   explicit Builder(Program& program) : program_(program), base_(program.text.data()) {}
@@ -96,7 +97,7 @@ public:
     node.overflow = digits.above_integer;
   }
 
-  /// An operator before, or parentheses around, the last operand.
+  /// Adds a prefix operator, or parentheses around the last operand.
   void unary(NodeKind kind, std::uint8_t what, const char* begin, const char* end) {
     add(kind, what, program_.nodes.back().first, span(begin, end)).depth = depth_;
   }
@@ -110,7 +111,7 @@ public:
 
   void open(const char* at) {
     if (++depth_ > deepest)
-      throw Stop{Reason::TooDeep, at, nullptr};
+      throw ParseStop{Reason::TooDeep, at, nullptr};
   }
   void close() { --depth_; }
 
@@ -123,12 +124,12 @@ public:
   void expression(ItemKind kind) {
     item(kind, size(program_.nodes) - 1, program_.nodes.back().span);
   }
-  /// Puts the `$` into the span of the last item.
+  /// Extends the span of the last item to include the `$`.
   void widen_item(const char* begin) {
     program_.items.back().span.begin = span(begin, begin).begin;
   }
 
-  /// Begins a statement; the one before it stays the parent until `end_statement`.
+  /// Begins a statement. The previous one stays the parent until `end_statement`.
   void begin_statement(spec::Statement kind, Spelling spelling, const char* begin,
                        const char* end) {
     statement_ = size(program_.statements);
@@ -144,7 +145,7 @@ public:
   void spell(Spelling spelling) { program_.statements[statement_].spelling = spelling; }
   spec::Statement kind() const { return kind_; }
 
-  /// What a failed line or branch is cut back to.
+  /// The sizes to truncate to after a failed line or branch.
   struct Mark {
     std::size_t statements;
     std::size_t items;
@@ -154,8 +155,8 @@ public:
     return {program_.statements.size(), program_.items.size(), program_.nodes.size()};
   }
 
-  /// Puts one statement that holds the robot's error in place of all since `mark`.
-  void fail(const Mark& mark, const Stop& stop, const char* begin, const char* end) {
+  /// Replaces everything since `mark` by one statement with the robot's error.
+  void fail(const Mark& mark, const ParseStop& stop, const char* begin, const char* end) {
     program_.statements.resize(mark.statements);
     program_.items.resize(mark.items);
     program_.nodes.resize(mark.nodes);
@@ -171,7 +172,7 @@ public:
     depth_ = 0;
   }
 
-  /// The statements in `then` and `else`: parsed like a line of their own.
+  /// Parses the statements in `then` and `else` like a separate line.
   template <typename Parse>
   void branch(const char* begin, Parse parse) {
     const auto parent = statement_;
@@ -207,7 +208,7 @@ public:
   }
 
 private:
-  /// Filled where it lies: a copy would have to wait for the parts that were written just before.
+  /// Constructs in place: a copy would stall on the fields just stored.
   Node& add(NodeKind kind, std::uint8_t what, std::uint32_t first, Span where) {
     auto& node = program_.nodes.emplace_back();
     node.kind = kind;

@@ -1,13 +1,13 @@
 #pragma once
 
-// The grammar of orbBasic as the robot reads it. Private to compiler/: only parse.cpp and the tests
-// of the grammar include it.
+// The grammar of orbBasic as the robot reads it. Private to compiler/: only parse_basic.cpp and the
+// tests of the grammar include it.
 //
-// Every rule eats the blanks after it. The first token decides which rule applies, so nothing is
-// ever parsed twice; what must follow is said with must<>, and compiler/text/parse.cpp says what is
-// reported where it does not. Three rules look a word up in the tables of spec/ and go on by what
-// it is (word_statement, named_factor, arguments): a new statement of the usual form is a new row
-// and leaves this file alone.
+// Every rule consumes the spaces after it. The first token selects the rule, so nothing is parsed
+// twice; must<> marks required parts, and compiler/text/parse_basic.cpp gives the error for each.
+// Three rules look up a word in the tables of spec/ and continue by its kind (word_statement,
+// named_factor, arguments): a new statement of the usual form needs a new row there and no change
+// here.
 
 #include "base/peg.h"
 
@@ -21,8 +21,8 @@ namespace orb::compiler::grammar {
 
 using namespace tao::pegtl;
 
-// The rules that look a word up. They are matched by hand, in parse.cpp; what they consume is said
-// here once more for analyze(), which proves that no loop stands still.
+// The rules that look up a word. parse_basic.cpp matches them by hand; their content is declared
+// here again for analyze(), which proves that no loop runs without progress.
 // clang-format off
 
 struct _    : star<blank> {};
@@ -82,7 +82,7 @@ struct character_sign : one<'$'> {};
 struct character      : seq<character_sign, _, must<sum>> {};
 struct print_item     : sor<seq<sor<text, print_comma, semicolon>, _>, character, expression> {};
 
-// what stands after the word of a statement, by its spec::Form
+// the syntax after the word of a statement, by its spec::Form
 
 struct assignment     : seq<must<equals>, must<expression>> {};
 struct branch_line    : seq<must<target>, _> {};
@@ -98,13 +98,14 @@ struct entry          : seq<must<user_variable>,
                             opt<comma, must<expression>, must<comma>, must<expression>>> {};
 struct values         : seq<must<expression>, star<comma, must<expression>>> {};
 struct variables      : seq<must<user_variable>, star<comma, must<user_variable>>> {};
-ORB_BY_HAND(arguments) // as many expressions as the statement has parameters
+ORB_BY_HAND(arguments) // one expression per parameter of the statement
 
 struct also_and       : word_and {};
 struct also_or        : word_or {};
 struct line_end       : sor<eof, at<one<'\n', '\r', '\''>>> {};
 struct then_end       : sor<line_end, at<word_else>> {};
-ORB_BY_HAND(then_branch) // a statement and then_end; what does not parse becomes a fault of its own
+ORB_BY_HAND(then_branch) // a statement and then_end; a branch that does not parse becomes a
+                         // separate fault
 ORB_BY_HAND(else_branch) // the same with line_end
 struct conditional    : seq<relation, opt<sor<also_and, also_or>, relation>, must<word_then>,
                             then_branch, opt<word_else, else_branch>> {};
@@ -113,7 +114,7 @@ struct conditional    : seq<relation, opt<sor<also_and, also_or>, relation>, mus
 
 struct question_mark  : one<'?'> {};
 struct short_print    : seq<question_mark, _, output> {};
-ORB_BY_HAND(word_statement) // a word and what its form asks for
+ORB_BY_HAND(word_statement) // a word and the syntax of its form
 struct statement      : sor<word_statement, short_print> {};
 struct line_rest      : sor<line_end, seq<must<statement>, must<line_end>>> {}; // after its number
 

@@ -1,21 +1,21 @@
 #include "compiler/text/image.h"
 
+#include "compiler/text/basic_words.h"
 #include "compiler/text/print.h"
-#include "compiler/text/words.h"
 
 #include <string_view>
 
 namespace orb::compiler {
 namespace {
 
-/// The part of a statement that building leaves out: `let` and the blanks after it.
+/// The part of a statement that the image omits: `let` and the spaces after it.
 Span let_span(const Program& program, const StatementNode& statement) {
   if (statement.error || statement.spelling != Spelling::Let)
     return {};
   return {statement.word.begin, program.as<LetView>(statement).variable.span.begin};
 }
 
-/// Copies source text; a tab outside of strings becomes a blank.
+/// Copies source text; a tab outside a string becomes a space.
 void copy(std::string& out, std::string_view text) {
   bool in_string = false;
   for (const char c : text) {

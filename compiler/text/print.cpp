@@ -1,6 +1,6 @@
 #include "compiler/text/print.h"
 
-#include "compiler/text/words.h"
+#include "compiler/text/basic_words.h"
 #include "spec/limits.h"
 
 #include <algorithm>
@@ -15,15 +15,15 @@ bool is_word_char(char c) {
   return is_letter(c) || is_digit(c);
 }
 
-/// Digits without the zeros in front that say nothing.
+/// Strips leading zeros.
 std::string_view strip_zeros(std::string_view digits) {
   while (digits.size() > 1 && digits.front() == '0')
     digits.remove_prefix(1);
   return digits;
 }
 
-/// Writes statements token by token. Blanks are asked for where the canonical layout has them; the
-/// packed layout keeps only those without which two tokens would become one.
+/// Prints statements token by token. The canonical layout puts spaces where they are customary; the
+/// packed layout keeps only those that separate two tokens.
 class Printer {
 public:
   Printer(const Program& program, Layout layout) : program_(program), layout_(layout) {}
@@ -44,7 +44,7 @@ private:
     if (!out_.empty()) {
       const char last = out_.back();
       const bool would_join = is_word_char(last) && is_word_char(token.front());
-      // `Z(` is an error, not an index, so `Z` and a parenthesis stay apart.
+      // `Z(` is an error, not an index: keep `Z` and a parenthesis apart.
       const bool indexed = (last == 'Z' || last == 'z') && token.front() == '(';
       if (would_join || indexed || (blank_wanted_ && !packed()))
         out_ += ' ';
@@ -89,7 +89,7 @@ private:
     blank();
   }
 
-  /// A sign or a word with a blank on both sides.
+  /// Prints a sign or a word with a space on both sides.
   void put_sign(std::string_view sign) {
     blank();
     put(sign);
@@ -168,7 +168,7 @@ private:
     }
   }
 
-  /// Copies the tokens of an expression: their order in the text is their order on paper.
+  /// Copies the tokens of an expression in text order.
   void put_expression(std::uint32_t root) {
     dropped_.clear();
     if (packed())
@@ -209,18 +209,18 @@ private:
     }
   }
 
-  // ---- parentheses that do nothing
+  // ---- redundant parentheses
 
   const Node& node(std::uint32_t index) const { return program_.nodes[index]; }
 
-  /// Below all parentheses around it.
+  /// The node inside all parentheses around it.
   std::uint32_t inside(std::uint32_t index) const {
     while (node(index).kind == NodeKind::Group)
       --index;
     return index;
   }
 
-  /// Whether a function stands at the right edge: what follows would become part of its operand.
+  /// True if a function is at the right end: text after it would become part of its operand.
   bool ends_open(std::uint32_t index) const {
     while (node(index).kind == NodeKind::Binary || node(index).kind == NodeKind::Negate)
       --index;
@@ -232,8 +232,9 @@ private:
            program_.text[node(index).span.begin] == '-';
   }
 
-  /// Whether the parentheses follow a function's word and hold more than one operand. That a
-  /// function takes the whole expression is a decision, not a document, so these stay.
+  /// True if the parentheses follow the word of a function and contain more than one operand. That
+  /// a function takes the whole expression is a decision, not documented, so these
+  /// parentheses stay.
   bool bounds_operand(std::uint32_t index) const {
     if (node(inside(index)).kind != NodeKind::Binary)
       return false;
@@ -253,13 +254,13 @@ private:
     dropped_.push_back(group.span.end - 1);
   }
 
-  /// Finds the parentheses without which the expression is read the same way.
+  /// Finds the parentheses that do not change how the expression is read.
   void drop_groups(std::uint32_t root) {
     const auto first = node(root).first;
     const auto most = spec::value_of(spec::Limit::ExpressionLevels);
     for (auto i = first; i <= root; ++i)
       if (node(i).depth > most)
-        return; // the robot stops at such an expression; shorter, it would not
+        return; // the robot stops at such an expression; without them it would not
     for (auto i = first; i <= root; ++i)
       switch (node(i).kind) {
       case NodeKind::Binary: {
@@ -283,7 +284,7 @@ private:
     std::sort(dropped_.begin(), dropped_.end());
   }
 
-  /// A group that is all of an expression.
+  /// Drops a group that is the whole expression.
   void drop_whole(std::uint32_t index) {
     if (node(index).kind == NodeKind::Group && !begins_with_sign(inside(index)))
       drop(node(index));
@@ -307,7 +308,7 @@ private:
   Layout layout_;
   std::string out_;
   bool blank_wanted_ = false;
-  std::vector<std::uint32_t> dropped_; ///< places of parentheses that are left out, ascending
+  std::vector<std::uint32_t> dropped_; ///< positions of omitted parentheses, ascending
 };
 
 } // namespace

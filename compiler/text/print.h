@@ -7,19 +7,19 @@
 
 namespace orb::compiler {
 
-/// How a statement is written out.
+/// The layout of a printed statement.
 enum class Layout : std::uint8_t {
-  Canonical, ///< `orb fmt`: one blank where blanks help the reader
-  Packed,    ///< no blank that is not needed, no parentheses that do nothing, `?` for print
+  Canonical, ///< `orb fmt`: one space where it helps the reader
+  Packed,    ///< no unnecessary space or parentheses, `?` for print
 };
 
-/// Writes one statement, branches included. Reading it back gives the same statement: the text only
-/// differs in blanks, leading zeros, `let`, and what `Layout::Packed` leaves out. A statement that
-/// does not parse comes back as it was written.
+/// Prints one statement with its branches. Parsing the result gives the same statement: the text
+/// differs only in spaces, leading zeros, `let`, and what `Layout::Packed` omits. A statement that
+/// does not parse is returned as written.
 std::string print(const Program& program, const StatementNode& statement, Layout layout);
 
-/// The canonical layout of a whole source: one line each, comments kept, blank lines at most one in
-/// a row. Formatting the result again changes nothing.
+/// Formats a whole source in the canonical layout: comments kept, at most one blank line in a row.
+/// Formatting the result again changes nothing.
 std::string format(const Program& program);
 
 } // namespace orb::compiler

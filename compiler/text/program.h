@@ -1,7 +1,7 @@
 #pragma once
 
-// An orbBasic program after parsing: a few flat arrays of plain records that refer to each other by
-// index. Nothing is allocated per node, so walking a program is a walk over arrays.
+// An orbBasic program after parsing: flat arrays of plain records that refer to each other by
+// index. Nodes are not allocated one by one, so a traversal is a walk over arrays.
 
 #include "base/source.h"
 #include "spec/basic.h"
@@ -16,19 +16,19 @@
 
 namespace orb::compiler {
 
-/// Stands for an index that refers to nothing.
+/// An index that refers to nothing.
 inline constexpr std::uint32_t none = 0xFFFFFFFF;
 
-/// How many variables a program can have: the robot's 25 letters, more where a structured program
-/// is read as one.
+/// The most variables of a program: the robot's 25 letters, or more for a compiled structured
+/// program.
 inline constexpr std::uint32_t most_letters = 64;
-/// Y, which names an element of Z.
+/// Y, which selects an element of Z.
 inline constexpr std::uint32_t index_letter = spec::letter_count - 1;
 
 enum class NodeKind : std::uint8_t {
   Number,  ///< `value`, already modulo 2^32
   Letter,  ///< `what` is 0 for A to 24 for Y, above that for names
-  Indexed, ///< Z: the element that Y names
+  Indexed, ///< Z: the element that Y selects
   System,  ///< `what` is a spec::Variable
   Binary,  ///< `what` is a spec::Operator
   Group,   ///< parentheses around the operand
@@ -36,13 +36,13 @@ enum class NodeKind : std::uint8_t {
   Call,    ///< `what` is a spec::Function
 };
 
-/// A part of an expression. An expression is a run of nodes in postfix order: operands stand right
-/// before what uses them, the root is the last. The only operand of node `i`, or the right one, is
-/// node `i - 1`; the left one is the node before the first node of the right one.
+/// A part of an expression. An expression is a run of nodes in postfix order: operands come right
+/// before their operator, the root is last. The only operand of node `i`, or the right one, is node
+/// `i - 1`; the left one is the node before the first node of the right one.
 struct Node {
   NodeKind kind = NodeKind::Number;
   std::uint8_t what = 0;
-  std::uint8_t depth = 0;  ///< Group, Call: how many of them are open here, itself included
+  std::uint8_t depth = 0;  ///< Group, Call: number of open levels, including this one
   bool overflow = false;   ///< Number: the literal is above 2 147 483 647
   std::uint32_t first = 0; ///< the first node of this subtree; a leaf's own index
   std::int32_t value = 0;
@@ -55,25 +55,24 @@ enum class ItemKind : std::uint8_t {
   String,     ///< the span includes both quotes
   Comma,      ///< only in print
   Semicolon,  ///< only in print
-  Letter,     ///< a variable to be set: `value` is 0 for A to 24 for Y
-  Indexed,    ///< Z to be set
-  System,     ///< a timer or ctrl to be set: `value` is a spec::Variable
-  Target,     ///< `value` is a line number as written, 0xFFFFFFFF for one above that
+  Letter,     ///< a variable to assign: `value` is 0 for A to 24 for Y
+  Indexed,    ///< Z to assign
+  System,     ///< a timer or ctrl to assign: `value` is a spec::Variable
+  Target,     ///< `value` is a line number as written; 0xFFFFFFFF for a larger one
   Relation,   ///< `value` is a spec::Relation
   And,
   Or,
 };
 
-/// A part of a statement, in the order of the text. Which part means what is said by the views
-/// below. Print holds [Expression, Character, String, Comma, Semicolon…], Read [variable…], Data
-/// and all others [Expression…].
+/// A part of a statement, in text order. The views below name the parts. Print holds [Expression,
+/// Character, String, Comma, Semicolon…], Read [variable…], Data and all others [Expression…].
 struct Item {
   ItemKind kind = ItemKind::Expression;
   std::uint32_t value = 0;
   Span span;
 };
 
-/// How a statement was written, where there is more than one way.
+/// The spelling of a statement that has alternatives.
 enum class Spelling : std::uint8_t {
   Plain,
   Let,          ///< `let v = e`
@@ -84,12 +83,12 @@ enum class Spelling : std::uint8_t {
 struct StatementNode {
   spec::Statement kind = spec::Statement::End;
   Spelling spelling = Spelling::Plain;
-  /// Set where the text does not parse: reaching the statement stops the program with this error
-  /// before it has any effect. `kind`, items and branches then mean nothing.
+  /// Set if the text does not parse: reaching the statement stops the program with this error
+  /// before it has any effect. `kind`, items and branches are then meaningless.
   std::optional<spec::BasicError> error;
   std::uint32_t items_begin = 0;
   std::uint32_t items_end = 0;
-  std::uint32_t nodes_begin = 0; ///< of all expressions in the items, in the order of the text
+  std::uint32_t nodes_begin = 0; ///< of all expressions in the items, in text order
   std::uint32_t nodes_end = 0;
   std::uint32_t then_branch = none; ///< If: a statement
   std::uint32_t else_branch = none; ///< If: a statement, or none
@@ -97,9 +96,8 @@ struct StatementNode {
   Span span;
 };
 
-// The parts of a statement by their names: `program.as<ForView>(statement)`, asked only of a
-// statement of that form which has no error. A view refers to the program and is made where it is
-// needed.
+// Named access to the parts of a statement: `program.as<ForView>(statement)`. The statement must
+// have that form and no error. A view refers to the program; make it where it is needed.
 
 struct LetView {
   static constexpr auto form = spec::Form::Assignment;
@@ -121,7 +119,7 @@ struct Comparison {
 struct IfView {
   static constexpr auto form = spec::Form::Conditional;
   Comparison first;
-  const Item* joint = nullptr; ///< And or Or; null where there is one comparison
+  const Item* joint = nullptr; ///< And or Or; null for a single comparison
   std::optional<Comparison> second;
 
   explicit IfView(std::span<const Item> items) : first(items.first(3)) {
@@ -138,7 +136,7 @@ struct ForView {
   const Item& variable;
   const Item& start;
   const Item& end;
-  const Item* step; ///< null where none is written
+  const Item* step; ///< null if absent
 
   explicit ForView(std::span<const Item> items)
       : variable(items[0]), start(items[1]), end(items[2]),
@@ -172,7 +170,7 @@ struct OnView {
 struct InputView {
   static constexpr auto form = spec::Form::Entry;
   const Item& variable;
-  const Item* milliseconds; ///< null, like the next one, where the statement waits without bound
+  const Item* milliseconds; ///< null, like the next one, if the statement waits without limit
   const Item* fallback;
 
   explicit InputView(std::span<const Item> items)
@@ -190,27 +188,27 @@ struct SleepView {
       : seconds(items[0]), macro(items[1]), line(items[2]) {}
 };
 
-/// One line of the text. Blank lines and lines that hold only a comment have neither number nor
-/// statement; `10` and `10 'remark` have no statement. A line with a statement but without
-/// number holds a statement with an error.
+/// One line of the text. Blank lines and comment lines have neither number nor statement; `10` and
+/// `10 'remark` have no statement. A line with a statement but no number holds a statement
+/// with an error.
 struct Line {
-  std::uint32_t number = none;    ///< as written, 0xFFFFFFFE for one above that
+  std::uint32_t number = none;    ///< as written; 0xFFFFFFFE for a larger one
   std::uint32_t statement = none; ///< index into `statements`
-  Span span;                      ///< without the line end
+  Span span;                      ///< without the line ending
   Span number_span;               ///< the digits
-  Span comment;                   ///< from the `'` to the end of the line; empty without comment
+  Span comment;                   ///< from the `'` to the end of the line; empty if there is none
 
   bool has_number() const { return number != none; }
   bool has_statement() const { return statement != none; }
 };
 
-/// Why a piece of text does not parse: at most one for each line.
+/// Why a piece of text does not parse: at most one reason per line.
 enum class Reason : std::uint8_t {
-  MissingNumber,      ///< a line that does not begin with a number
+  MissingNumber,      ///< a line without a number at its start
   BadNumber,          ///< a line number above 65535
-  UnknownWord,        ///< a statement begins with a word that is none
+  UnknownWord,        ///< a statement begins with an unknown word
   NotAStatement,      ///< a statement begins with something else
-  ReadOnly,           ///< a sensor is assigned to
+  ReadOnly,           ///< an assignment to a sensor
   IndexedParenthesis, ///< `Z(`
   NestedIf,
   ImpliedGoto, ///< `then 60`
@@ -229,25 +227,25 @@ enum class Reason : std::uint8_t {
   ExpectedComma,
   TooManyArguments,
   TooDeep, ///< more open parentheses than the parser follows
-  Trailing ///< something stands after a complete statement
+  Trailing ///< text after a complete statement
 };
 
 struct Fault {
   Reason reason = Reason::Trailing;
   std::uint32_t line = 0;                           ///< index into `lines`
-  spec::Statement statement = spec::Statement::End; ///< the statement it is in, where one was read
-  std::uint32_t found = 0;                          ///< arguments read before, where that matters
+  spec::Statement statement = spec::Statement::End; ///< the enclosing statement, if one was read
+  std::uint32_t found = 0;                          ///< arguments read so far, if relevant
   Span span;
 };
 
 struct Program {
-  std::string_view text; ///< what was parsed; must outlive the program
+  std::string_view text; ///< the parsed text; must outlive the program
   std::vector<Line> lines;
   std::vector<StatementNode> statements;
   std::vector<Item> items;
   std::vector<Node> nodes;
   std::vector<Fault> faults;
-  std::uint32_t letters = spec::letter_count; ///< that it can use; more where variables have names
+  std::uint32_t letters = spec::letter_count; ///< the number of variables; more if they have names
 
   std::string_view text_of(Span span) const { return text.substr(span.begin, span.size()); }
   std::span<const Item> items_of(const StatementNode& statement) const {
@@ -258,7 +256,7 @@ struct Program {
     assert(!statement.error && spec::info(statement.kind).form == View::form);
     return View(items_of(statement));
   }
-  /// The statement of a line and those in its branches, which stand right after it.
+  /// The statement of a line and those in its branches, which follow it directly.
   std::span<const StatementNode> whole(const StatementNode& statement) const {
     const bool has_then = statement.then_branch != none;
     const bool has_else = statement.else_branch != none;

@@ -4,7 +4,7 @@
 
 #include <string_view>
 
-/// What is said about orbBasic programs: `texts::NotAStatement(word)`.
+/// The messages about orbBasic programs: `texts::NotAStatement(word)`.
 namespace orb::compiler::texts {
 
 using namespace orb::texts;
@@ -12,7 +12,7 @@ using namespace orb::texts;
 #define ORB_TEXTS "compiler/text/rules.def"
 #include "base/texts.inc"
 
-/// Words of a table of spec/, such as the name of a parameter.
+/// Finds the message for words of a table of spec/, such as the name of a parameter.
 inline Message of_table(std::string_view words) {
   return find_text(all(), words);
 }

@@ -13,7 +13,7 @@ using debug::Breakpoint;
 
 namespace {
 
-/// Takes over what all kinds of breakpoints can say; what is wrong with it, or nothing.
+/// Reads the members that all kinds of breakpoints share; returns what is wrong, or nothing.
 std::optional<std::string> read_conditions(const debug::Debugger& debugger, const Json& json,
                                            Breakpoint& one) {
   if (const auto condition = text_of(member(json, "condition")); !trim(condition).empty()) {

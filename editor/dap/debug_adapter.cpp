@@ -9,7 +9,7 @@ namespace orb::editor {
 
 namespace {
 
-/// What the step throws ends the session, once the robot stands still.
+/// Runs a step. An exception ends the session, after the robot has stopped.
 std::vector<std::string> contained(dap::Session& session, const std::function<void()>& step) {
   const auto done = contain([&]() -> tl::expected<void, Failure> {
     step();
@@ -48,7 +48,7 @@ bool DebugAdapter::broken() const {
 }
 
 std::vector<std::string> DebugAdapter::work(const std::function<bool()>& interrupted) {
-  constexpr std::size_t enough = 64; // messages before the client gets them
+  constexpr std::size_t enough = 64; // messages to collect before sending them
   return contained(*session_, [&] {
     if (!session_->going)
       return;
@@ -57,7 +57,7 @@ std::vector<std::string> DebugAdapter::work(const std::function<bool()>& interru
     session_->work = [this](const debug::GiveUp& give_up) {
       return session_->debugger->resume(give_up);
     };
-    if (why.reason != debug::Stop::Reason::GivenUp)
+    if (why.reason != debug::StopEvent::Reason::GivenUp)
       session_->take(why);
   });
 }

@@ -18,37 +18,38 @@ struct Session;
 }
 
 /// A debug adapter without a transport: messages of the Debug Adapter Protocol in, messages out. It
-/// reads no clock and no file by itself, and answers every message, however malformed, without
+/// reads no clock and no file itself. It answers every message, however malformed, without
 /// throwing.
 class DebugAdapter {
 public:
-  /// Readies the robot at a port, such as `ble://SB-1A2B`; `kind` says which it is, and is empty
-  /// where its name tells.
+  /// Connects the robot at a port such as `ble://SB-1A2B`; `kind` names the model, empty if the
+  /// port's name tells.
   using OpenRobot = std::function<tl::expected<std::shared_ptr<run::HeldRobot>, Failure>(
       const std::string& port, const std::string& kind)>;
 
-  /// Programs are read from `files`, which must outlive the adapter; paths that are not absolute
-  /// count from `folder`. Without `open_robot` programs run on the virtual ball only.
+  /// Reads programs from `files`, which must outlive the adapter; relative paths start at `folder`.
+  /// Without `open_robot`, programs run on the virtual ball only.
   DebugAdapter(structured::Files& files, std::string folder, OpenRobot open_robot = {});
   ~DebugAdapter();
   DebugAdapter(const DebugAdapter&) = delete;
   DebugAdapter& operator=(const DebugAdapter&) = delete;
 
-  /// Takes one message; returns the answer and the events that it causes.
+  /// Handles one message; returns the answer and the resulting events.
   std::vector<std::string> receive(std::string_view message);
 
-  /// What to answer to something that is not a message at all.
+  /// Returns the answer to input that is not a message.
   std::vector<std::string> receive_garbage(std::string_view what);
 
-  /// A program is to go on: call work().
+  /// True if a program has to continue: call work().
   bool busy() const;
-  /// Lets the program go on until it stands still, there is something to send, or `interrupted`
-  /// says that the client has spoken.
+  /// Runs the program until it stops, there is something to send, or `interrupted` reports a
+  /// message from the client.
   std::vector<std::string> work(const std::function<bool()>& interrupted);
 
-  /// The client has said that it is done.
+  /// True once the client has ended the session.
   bool ended() const;
-  /// A bug of orb has ended the session: the client has been told, and the robot to stop.
+  /// True if a bug in orb has ended the session: the client is informed, and the robot told to
+  /// stop.
   bool broken() const;
 
 private:

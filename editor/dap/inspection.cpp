@@ -14,11 +14,11 @@ namespace orb::editor::dap {
 
 namespace {
 
-// What clients call scopes and frames by.
+// The ids of scopes and frames in the protocol.
 constexpr std::int64_t frames_of_a_thread = 1000;
 enum Reference : std::int64_t { Variables = 1, Arrays, Sensors, Ball, Limits, FirstArray = 100 };
 
-/// A number that the client sent, as it wrote it.
+/// A number as the client wrote it.
 std::string shown(const Json& number) {
   return to_valid_utf8(number.dump(-1, ' ', false, Json::error_handler_t::replace));
 }
@@ -171,7 +171,7 @@ bool is_of_word(char c) {
   return is_letter(c) || is_digit(c) || c == '_';
 }
 
-/// The byte at which column `column`, from 0 in UTF-16, begins; the end of the text behind it.
+/// The byte at column `column`, counted from 0 in UTF-16; past the end it is the end of the text.
 std::size_t byte_at(std::string_view text, std::int64_t column) {
   std::size_t at = 0;
   while (at < text.size() && column > 0) {
@@ -248,7 +248,7 @@ Answer Session::evaluate(const Json& arguments) {
   return Json{{"result", fmt::format("{}", *value)}, {"variablesReference", 0}};
 }
 
-/// A command of the debug console; an error without words where it is none.
+/// Runs a command of the debug console; fails without a message if it is not a command.
 Answer Session::console(std::string_view line) {
   const auto [word, rest] = debug::split(line);
   const auto said = [](std::string text) {

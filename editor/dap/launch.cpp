@@ -35,7 +35,7 @@ Answer Session::initialize(const Json& arguments) {
 
 namespace {
 
-/// What an argument of `launch` is not, though it should be; nothing where all fit.
+/// Reports an argument of `launch` with the wrong type; nothing if all are right.
 std::optional<std::string> mistyped(const Json& arguments) {
   const auto is_text = [](const Json& json) { return json.is_string(); };
   const auto is_flag = [](const Json& json) { return json.is_boolean(); };
@@ -68,7 +68,7 @@ std::optional<std::string> mistyped(const Json& arguments) {
   return wrong;
 }
 
-/// What a command line could do about it is said as an argument of `launch`.
+/// Rewords advice about command-line options as arguments of `launch`.
 std::string in_terms_of_launch(std::string message) {
   constexpr std::string_view option = "`--lang basic`, `--lang structured` or `--lang macro`";
   if (const auto at = message.find(option); at != std::string::npos)
@@ -77,7 +77,7 @@ std::string in_terms_of_launch(std::string message) {
   return message;
 }
 
-/// What `launch` is to start.
+/// Reads the program to start from the arguments of `launch`.
 debug::Launch wanted_by(const Json& arguments) {
   const auto base = text_of(member(arguments, "cwd"));
   const auto path = [&](const std::string& given) {

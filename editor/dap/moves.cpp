@@ -30,7 +30,7 @@ Answer Session::step_out(const Json& arguments) {
   return move(debug::Move::Out, debug::Direction::Forward, arguments);
 }
 
-/// The protocol has no other way back into a sub.
+/// The protocol has no other way to step back into a sub.
 Answer Session::step_back(const Json& arguments) {
   return move(debug::Move::In, debug::Direction::Back, arguments);
 }
@@ -94,12 +94,12 @@ void Session::go(debug::Move move, debug::Direction direction, Thread thread) {
   });
 }
 
-void Session::proceed(std::function<Stop(const debug::GiveUp&)> how) {
+void Session::proceed(std::function<StopEvent(const debug::GiveUp&)> how) {
   work = std::move(how);
   going = true;
 }
 
-void Session::stopped(const char* reason, const Stop& why, const std::string& description) {
+void Session::stopped(const char* reason, const StopEvent& why, const std::string& description) {
   stop = why;
   Json body{{"reason", reason},
             {"threadId", thread_number(debugger->thread())},
@@ -113,11 +113,11 @@ void Session::stopped(const char* reason, const Stop& why, const std::string& de
   event("stopped", std::move(body));
 }
 
-void Session::take(const Stop& why) {
+void Session::take(const StopEvent& why) {
   going = false;
   switch (why.reason) {
-  case Stop::Reason::Step: return stopped("step", why);
-  case Stop::Reason::Breakpoint: {
+  case StopEvent::Reason::Step: return stopped("step", why);
+  case StopEvent::Reason::Breakpoint: {
     const auto& all = debugger->breakpoints();
     const auto hit = std::find_if(all.begin(), all.end(), [&](const Breakpoint& one) {
       return one.id == why.breakpoints.front();
@@ -128,15 +128,17 @@ void Session::take(const Stop& why) {
                                                    : "data breakpoint",
                    why);
   }
-  case Stop::Reason::Fault: return stopped("exception", why, "Robot error");
-  case Stop::Reason::Time: return stopped("pause", why, "Time reached");
-  case Stop::Reason::GivenUp: return stopped("pause", why);
-  case Stop::Reason::Robot: output("stderr", fmt::format("error: {}\n", why.text)); return finish();
-  case Stop::Reason::Begin: return stopped("entry", why, "Beginning of the run");
-  case Stop::Reason::Input:
+  case StopEvent::Reason::Fault: return stopped("exception", why, "Robot error");
+  case StopEvent::Reason::Time: return stopped("pause", why, "Time reached");
+  case StopEvent::Reason::GivenUp: return stopped("pause", why);
+  case StopEvent::Reason::Robot:
+    output("stderr", fmt::format("error: {}\n", why.text));
+    return finish();
+  case StopEvent::Reason::Begin: return stopped("entry", why, "Beginning of the run");
+  case StopEvent::Reason::Input:
     say("the program is waiting for a number; type `input 42` here");
     return stopped("pause", why, "Waiting for a number");
-  case Stop::Reason::End: break;
+  case StopEvent::Reason::End: break;
   }
   if (!why.text.empty())
     output("stderr", fmt::format("error: {}\n", why.text));
@@ -154,7 +156,7 @@ void Session::finish() {
   event("terminated", Json::object());
 }
 
-/// The robot first, then the words.
+/// Stops the robot first, then reports.
 void Session::break_off(const std::string& why) {
   broken = true;
   going = false;

@@ -74,7 +74,7 @@ void Session::receive(std::string_view text) {
     return;
   }
   const auto type = text_of(member(message, "type"));
-  if (type == "response") // nothing is asked of the client
+  if (type == "response") // this adapter sends no requests
     return;
   const auto command = text_of(member(message, "command"));
   if (type != "request" || command.empty()) {
@@ -90,12 +90,12 @@ void Session::receive(std::string_view text) {
 
 namespace {
 
-/// When a request is answered.
+/// The states in which a request is answered.
 enum class When : std::uint8_t {
   Always, ///< even before `initialize`
   Initialized,
-  Launched,   ///< there is a program
-  StandsStill ///< and it does not run
+  Launched,   ///< a program is loaded
+  StandsStill ///< a program is loaded and stopped
 };
 
 struct Row {
@@ -137,7 +137,7 @@ constexpr auto rows = std::to_array<Row>({
     {"exceptionInfo", When::StandsStill, &Session::exception_info},
 });
 
-/// Why it is not the time for a request; nothing where it is.
+/// Why a request is not allowed in this state; nothing if it is.
 std::optional<std::string> obstacle(const Session& session, const std::string& command, When when) {
   if (when == When::Always)
     return std::nullopt;

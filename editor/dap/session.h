@@ -16,26 +16,27 @@
 
 namespace orb::editor::dap {
 
-/// The body of a response, or why there is none.
+/// The body of a response, or why the request failed.
 using Answer = tl::expected<Json, std::string>;
-using debug::Stop;
+using debug::StopEvent;
 using debug::Thread;
 
 bool flag_of(const Json& json, bool otherwise = false);
 /// A whole number; nothing for anything else.
 std::optional<std::int64_t> number_of(const Json& json);
-/// A list of texts; one text is a list of one.
+/// Reads a list of texts; a single text is a list of one.
 std::vector<std::string> texts_of(const Json& json);
 tl::unexpected<std::string> refuse(std::string message);
 
-// What clients call threads by.
+// The ids of threads in the protocol.
 inline constexpr int program_thread = 1;
 inline constexpr int macro_thread = 2;
 int thread_number(Thread thread);
 
 inline constexpr std::string_view fault_filter = "faults";
 
-/// A client, its program and how far that has come.
+/// A client with its program and the state of the run. Large because each request of the debug
+/// adapter protocol is a member, listed in one table.
 struct Session final : debug::Console {
   Session(structured::Files& from, std::string where, DebugAdapter::OpenRobot open)
       : files(from), folder(std::move(where)), open_robot(std::move(open)) {}
@@ -46,25 +47,25 @@ struct Session final : debug::Console {
   std::vector<std::string> out;
   std::int64_t seq = 0;
 
-  // What the client has said of itself.
+  // Announced by the client.
   bool initialized = false;
   std::int64_t first_line = 1;
   std::int64_t first_column = 1;
 
   std::unique_ptr<debug::Launched> launched;
-  std::shared_ptr<run::HeldRobot> robot;     ///< that is driven; null for the virtual ball
-  std::unique_ptr<debug::Debugger> debugger; ///< of `launched`
+  std::shared_ptr<run::HeldRobot> robot;     ///< driven robot; null for the virtual ball
+  std::unique_ptr<debug::Debugger> debugger; ///< refers to `launched`
   bool stop_on_entry = false;
   bool stop_at_end = false;
-  bool debugs = true; ///< false: it only runs
+  bool debugs = true; ///< false: runs without debugging
   bool configured = false;
-  bool over = false; ///< the client was told that the run is
+  bool over = false; ///< the client knows that the run has ended
   bool ended = false;
-  bool broken = false; ///< by a bug: nothing is asked of it any more
+  bool broken = false; ///< ended by a bug: takes no more requests
   bool going = false;
-  std::function<Stop(const debug::GiveUp&)> work; ///< how it goes on
-  Stop stop;
-  std::function<void()> afterwards; ///< what follows the response that is being made
+  std::function<StopEvent(const debug::GiveUp&)> work; ///< continues the run
+  StopEvent stop;
+  std::function<void()> afterwards; ///< runs after the current response is sent
 
   // debug::Console
   void print(std::string_view text) override { output("stdout", text); }
@@ -76,15 +77,15 @@ struct Session final : debug::Console {
   void output(const char* category, std::string_view text);
   void respond(const Json& request, const Answer& answer);
   void receive(std::string_view text);
-  /// The answer to a request of any kind: by the rows in session.cpp.
+  /// Answers any request, using the rows in session.cpp.
   Answer request(const std::string& command, const Json& arguments);
 
-  // The beginning and the end: launch.cpp.
+  // Start and end: launch.cpp.
   Answer initialize(const Json& arguments);
   Answer launch(const Json& arguments);
   Answer attach(const Json& arguments);
   Answer configuration_done(const Json& arguments);
-  Answer begin(); ///< stops on entry, or goes
+  Answer begin(); ///< stops on entry, or runs
   Answer restart(const Json& arguments);
   Answer terminate(const Json& arguments);
   Answer disconnect(const Json& arguments);
@@ -99,7 +100,7 @@ struct Session final : debug::Console {
   Answer data_breakpoint_info(const Json& arguments);
   Json set_breakpoint(const Json& json, std::optional<std::uint32_t> file);
 
-  // Going on and standing still: moves.cpp.
+  // Running and stopping: moves.cpp.
   Answer continue_all(const Json& arguments);
   Answer next(const Json& arguments);
   Answer step_in(const Json& arguments);
@@ -111,13 +112,13 @@ struct Session final : debug::Console {
   Answer go_to(const Json& arguments);
   Answer move(debug::Move move, debug::Direction direction, const Json& arguments);
   void go(debug::Move move, debug::Direction direction, Thread thread);
-  void proceed(std::function<Stop(const debug::GiveUp&)> how);
-  void take(const Stop& why);
-  void stopped(const char* reason, const Stop& why, const std::string& description = {});
+  void proceed(std::function<StopEvent(const debug::GiveUp&)> how);
+  void take(const StopEvent& why);
+  void stopped(const char* reason, const StopEvent& why, const std::string& description = {});
   void finish();
   void break_off(const std::string& why);
 
-  // What can be seen and changed: inspection.cpp.
+  // Inspecting and changing: inspection.cpp.
   Answer threads(const Json& arguments);
   Answer loaded_sources(const Json& arguments);
   Answer stack_trace(const Json& arguments);
@@ -129,23 +130,22 @@ struct Session final : debug::Console {
   Answer exception_info(const Json& arguments);
   Answer console(std::string_view line);
 
-  // Files and lines, as the client counts them: session.cpp.
+  // Files and lines in the client's terms: session.cpp.
   std::string absolute(const std::string& path) const;
   Json source(std::uint32_t file) const;
-  /// The file of the run that the client names; nothing where it is another.
+  /// The file of the run that the client means; nothing for other files.
   std::optional<std::uint32_t> file_of(const Json& source) const;
   std::optional<std::uint32_t> line_of(const Json& json) const;
   std::int64_t told_line(std::uint32_t line) const { return line - 1 + first_line; }
 
-  // What the client names by numbers: inspection.cpp.
+  // Ids in the client's requests: inspection.cpp.
   bool has(Thread thread) const;
   bool has_frame(std::int64_t frame) const;
-  /// The thread that the client names, the program where it names none; an error where there is no
-  /// such thread.
+  /// The thread in a request, the program if it names none; fails for an unknown thread.
   tl::expected<Thread, std::string> thread_of(const Json& arguments) const;
-  /// An error where the client names a frame that there is not.
+  /// Fails if the client names an unknown frame.
   tl::expected<void, std::string> check_frame(const Json& arguments) const;
-  /// Whether `variables` lists something for this number.
+  /// True if this is a reference that `variables` can list.
   bool has_variables(std::int64_t reference) const;
 };
 

@@ -1,8 +1,8 @@
 #include "editor/languages/markdown.h"
 
-#include "compiler/text/parse.h"
-#include "editor/languages/basic/names.h"
-#include "editor/languages/structured/names.h"
+#include "compiler/text/parse_basic.h"
+#include "editor/languages/basic/basic_names.h"
+#include "editor/languages/structured/structured_names.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -11,9 +11,9 @@
 namespace orb::editor {
 namespace {
 
-/// An example of the tables in the language of whoever reads it: the robot's words are shown there
-/// in numbered lines. Numbers that nothing jumps to can go. (structured::lift would do for the
-/// rest, too, but what it weighs is loaded by every visitor of the playground.)
+/// Shows an example from the tables in the reader's language. For structured programs it drops line
+/// numbers that nothing jumps to. (structured::lift would do more, but every visitor of the
+/// playground would have to load it.)
 std::string example_in(std::string_view language, const std::string& source) {
   if (language != structured_language_id)
     return source;

@@ -120,7 +120,7 @@ std::optional<Signature> statement_signature(const spec::StatementInfo& row, std
                                              std::string_view language) {
   if (row.usage == row.word)
     return std::nullopt;
-  // `input` takes a variable before its parameters: only where all are numbers do commas count.
+  // `input` takes a variable before its parameters: commas count only if all are numbers.
   const bool counts = row.form == spec::Form::Arguments && !row.parameters().empty();
   SignatureText text(counts ? row.word : row.usage);
   if (counts)

@@ -1,10 +1,9 @@
 #pragma once
 
-// What an editor draws of a text and where it leads, without any protocol: colours, folds, what
-// surrounds a place, links, calls. Like LanguageService, whose second half it is.
+// The second half of LanguageService: colours, folds, selection ranges, links, calls.
 
 #include "editor/language.h"
-#include "editor/words.h"
+#include "editor/word_at.h"
 
 #include <array>
 #include <cstdint>
@@ -15,7 +14,7 @@
 
 namespace orb::editor {
 
-/// What a piece of text is. The protocol's names are in `color_names`, in this order.
+/// The kind of a piece of text. `color_names` has the protocol's names in this order.
 enum class Color : std::uint8_t {
   Comment,
   Keyword,
@@ -34,7 +33,7 @@ inline constexpr auto color_names =
     std::to_array<std::string_view>({"comment", "keyword", "string", "regexp", "number", "operator",
                                      "function", "variable", "parameter", "enumMember", "label"});
 
-/// What else is true of it; bits, whose names are in `trait_names`.
+/// Modifiers of a colour, as bits; `trait_names` has their names.
 enum Trait : std::uint8_t { Plain = 0, Declared = 1, Fixed = 2, Changed = 4, Robots = 8 };
 
 inline constexpr auto trait_names =
@@ -46,14 +45,14 @@ struct Colored {
   std::uint8_t traits = Plain;
 };
 
-/// Lines (from 1) that can be hidden behind the first one.
+/// Lines (from 1) that can be folded into the first one.
 struct Fold {
   std::uint32_t first = 1;
   std::uint32_t last = 1;
   bool is_comment = false;
 };
 
-/// What a statement, a command or a routine takes.
+/// The parameters of a statement, a command or a routine.
 struct Signature {
   struct Parameter {
     Span in_label;
@@ -62,28 +61,28 @@ struct Signature {
   std::string label;
   std::string markdown;
   std::vector<Parameter> parameters;
-  std::size_t active = 0; ///< the parameter that is being written; past the end for none
+  std::size_t active = 0; ///< index of the parameter being written; past the end for none
 };
 
-/// A file that the text names.
+/// A file name in the text.
 struct Link {
   Span span;
   std::string path;
 };
 
-/// Something that a user may do with a place. The title and the command are those of `deed`.
+/// An action at a place. `deed` decides title and command.
 struct Lens {
   enum class Deed : std::uint8_t { Run, Debug, RunTest, DebugTest };
   Span span;
   Deed deed = Deed::Run;
-  std::string name; ///< of the test; empty for all of the file
+  std::string name; ///< of the test; empty for the whole file
 };
 
-/// A part of a program that can be called, and the program itself.
+/// A part of a program that can be called, or the program itself.
 struct Callable {
   std::string name;
   std::string detail;
-  std::shared_ptr<const Source> source; ///< null: the text that was asked about
+  std::shared_ptr<const Source> source; ///< null: the text itself
   Span span;
   Span selection;
 };
@@ -99,12 +98,13 @@ struct Calls {
   std::vector<Call> calls;
 };
 
-/// Every function is pure and takes any text, however broken. Null: the language has none.
+/// Every function is pure and accepts any text, however broken. Null means not supported.
 struct LanguageShape {
-  /// In the order of the text, none over another, none over more than one line.
+  /// Returns colours in order of the text, without overlaps, none across lines.
   std::vector<Colored> (*colors)(const Source& source, const LanguageOptions& options);
   std::vector<Fold> (*folds)(const Source& source);
-  /// Units that may hold `offset`, in any order; the text and its lines excepted. nested() chooses.
+  /// Returns units that may contain `offset`, in any order, without the line and the whole text.
+  /// nested() selects.
   std::vector<Span> (*around)(const Source& source, std::uint32_t offset);
   std::optional<Signature> (*signature)(const Source& source, std::uint32_t offset,
                                         const LanguageOptions& options);
@@ -119,38 +119,39 @@ extern const LanguageShape macro_shape;
 extern const LanguageShape test_shape;
 extern const LanguageShape stimulus_shape;
 
-/// Collects colours: names that are known first, then the words around them.
+/// Collects colours: known names first, then the words around them.
 class Palette {
 public:
   void add(Span span, Color color, unsigned traits = Plain) {
     if (span.size() > 0)
       found_.push_back({span, color, static_cast<std::uint8_t>(traits)});
   }
-  /// In order; of two that overlap the one that was added first stays.
+  /// Returns them in order; of two that overlap, the one added first.
   std::vector<Colored> take();
 
 private:
   std::vector<Colored> found_;
 };
 
-/// Adds what is told by the kind of a token alone; a word is nothing by itself.
+/// Adds a token coloured by its kind; words have no colour of their own.
 void color_token(Palette& palette, const Token& token);
 
-/// Adds a word that is a statement of the robot, or one of its variables.
+/// Adds a statement or variable of the robot.
 void color_statement(Palette& palette, Span span, const spec::StatementInfo& row);
 void color_system(Palette& palette, Span span, const spec::VariableInfo& row);
 
-/// Runs of lines that hold only a comment.
+/// Folds consecutive lines of comments.
 std::vector<Fold> comment_folds(const Source& source, char comment);
 
-/// From line `first` to the last line up to `last` that is not blank, where that hides something.
+/// Folds line `first` to the last non-blank line up to `last`, if that hides something.
 void add_fold(std::vector<Fold>& folds, const Source& source, std::uint32_t first,
               std::uint32_t last);
 
-/// Those of `spans`, with the line and the whole text, that hold `offset`, each in the next one.
+/// Returns those of `spans`, plus the line and the whole text, that contain `offset`, innermost
+/// first.
 std::vector<Span> nested(const Source& source, std::uint32_t offset, std::vector<Span> spans);
 
-/// Writes `word a, b, c` piece by piece, so that the places of the parameters are known.
+/// Writes `word a, b, c` piece by piece and records the places of the parameters.
 class SignatureText {
 public:
   explicit SignatureText(std::string_view head) { made_.label = head; }
@@ -162,15 +163,15 @@ private:
   Signature made_;
 };
 
-/// What a statement of the robot takes, while its argument after `commas` commas is written.
+/// The parameters of a statement of the robot, with `commas` commas before the cursor.
 std::optional<Signature> statement_signature(const spec::StatementInfo& row, std::size_t commas,
                                              std::string_view language);
 
-/// To run a program and to debug it, at its first line.
+/// Lenses that run and debug a program, at its first line.
 std::vector<Lens> run_lenses(const Source& source);
 
-/// What a number says more clearly: milliseconds from a second on as seconds, a heading as an arrow
-/// over a map with 0 at the top. `at` is where the number ends.
+/// A clearer form of a number: milliseconds from a second on as seconds, a heading as an arrow on a
+/// map with 0 at the top. `at` is the end of the number.
 std::optional<Hint> number_hint(std::string_view parameter, std::string_view unit,
                                 std::int64_t value, std::uint32_t at);
 

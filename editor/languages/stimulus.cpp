@@ -1,7 +1,8 @@
-// What an editor may ask about a stimulus script.
+// Editor support for stimulus scripts.
 
 #include "vm/stimulus.h"
-#include "editor/languages/test/names.h"
+#include "editor/languages/test/test_names.h"
+#include "testing/text/layout.h"
 
 namespace orb::editor {
 namespace {
@@ -30,6 +31,10 @@ std::vector<Symbol> outline(const Source&) {
   return {};
 }
 
+std::optional<std::string> format(const Source& source) {
+  return testing::layout(source.text());
+}
+
 tl::expected<Renaming, std::string> rename(const Source&, std::uint32_t, std::string_view,
                                            const LanguageOptions&) {
   return tl::unexpected(std::string("nothing in a stimulus script can be renamed"));
@@ -38,7 +43,7 @@ tl::expected<Renaming, std::string> rename(const Source&, std::uint32_t, std::st
 } // namespace
 
 const LanguageService stimulus_service = {
-    check,  hover,           suggest,           outline,        nothing::occurrences,
-    rename, nothing::format, nothing::rewrites, &stimulus_shape};
+    check,  hover,  suggest,           outline,        nothing::occurrences,
+    rename, format, nothing::rewrites, &stimulus_shape};
 
 } // namespace orb::editor

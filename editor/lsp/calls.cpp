@@ -6,7 +6,7 @@
 namespace orb::editor {
 namespace {
 
-/// `root` is the document whose program it is; later requests about it come back with its URI.
+/// `root` is the document whose program it belongs to; later requests about it carry its URI.
 Json callable(const Workspace& space, const std::string& uri, const Source& root,
               const Callable& one) {
   const auto& source = one.source != nullptr ? *one.source : root;
@@ -49,7 +49,7 @@ Answer calls(const Workspace& space, const Json& params, bool incoming) {
     return refuse(RpcError::InvalidParams, "the item belongs to no open document");
   const auto& root = found->second.source;
   const auto all = found->second.shape().calls(root, space.options);
-  std::map<std::size_t, Json> sites; // by the other end
+  std::map<std::size_t, Json> sites; // by the other callable
   for (const auto& call : all.calls) {
     const auto& caller = all.callables[call.caller];
     if (all.callables[incoming ? call.callee : call.caller].name != name)

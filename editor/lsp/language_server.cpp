@@ -13,18 +13,17 @@
 namespace orb::editor {
 namespace {
 
-/// A message that is not looked at yet.
+/// A message not handled yet.
 struct Waiting {
-  Json message; ///< discarded where it is no JSON
+  Json message; ///< discarded if it is not JSON
   bool is_cancelled = false;
-  std::string fault; ///< why it is no message at all; else empty
+  std::string fault; ///< why it is not a message; else empty
 };
 
 } // namespace
 
-struct LanguageServer::State {
-  State(structured::Files* disk, Folders* folders, Say say)
-      : space(disk, folders, std::move(say)) {}
+struct LanguageServer::Impl {
+  Impl(structured::Files* disk, Folders* folders, Say say) : space(disk, folders, std::move(say)) {}
 
   Workspace space;
   std::deque<Waiting> waiting;
@@ -49,7 +48,7 @@ struct LanguageServer::State {
           {"error", {{"code", static_cast<int>(refusal.error)}, {"message", refusal.message}}}});
   }
 
-  /// The server lives on: who asked hears of it, or the log where nobody asked.
+  /// Survives a bug: answers the request with an error, or logs it if there is no request.
   void fail_by_bug(const Json& id, const std::string& what) {
     if (id.is_null())
       log(what);
@@ -63,7 +62,7 @@ struct LanguageServer::State {
   Answer ask_document(const std::string& method, const Json& params);
   void notification(const std::string& method, const Json& params);
 
-  // Requests about no document.
+  // Requests without a document.
   Answer initialize(const Json& params);
   Answer shutdown(const Json& params);
   Answer symbols_of_all(const Json& params);
@@ -83,7 +82,7 @@ struct LanguageServer::State {
 };
 
 LanguageServer::LanguageServer(structured::Files* disk, Folders* folders, Say say)
-    : state_(std::make_unique<State>(disk, folders, std::move(say))) {}
+    : impl_(std::make_unique<Impl>(disk, folders, std::move(say))) {}
 LanguageServer::~LanguageServer() = default;
 
 std::vector<std::string> LanguageServer::receive(std::string_view message) {
@@ -100,29 +99,29 @@ std::vector<std::string> LanguageServer::answer_all() {
 }
 
 void LanguageServer::take(std::string_view message) {
-  state_->take(message);
+  impl_->take(message);
 }
 
 bool LanguageServer::has_waiting() const {
-  return !state_->waiting.empty();
+  return !impl_->waiting.empty();
 }
 
 std::vector<std::string> LanguageServer::answer_next() {
   if (has_waiting()) {
-    const auto next = std::move(state_->waiting.front());
-    state_->waiting.pop_front();
+    const auto next = std::move(impl_->waiting.front());
+    impl_->waiting.pop_front();
     const auto answered = contain([&]() -> tl::expected<void, Failure> {
-      state_->answer(next);
+      impl_->answer(next);
       return {};
     });
     if (!answered)
-      state_->fail_by_bug(member(next.message, "id"), answered.error().message);
+      impl_->fail_by_bug(member(next.message, "id"), answered.error().message);
   }
-  return std::exchange(state_->out, {});
+  return std::exchange(impl_->out, {});
 }
 
 void LanguageServer::take_garbage(std::string_view what) {
-  state_->waiting.push_back({nullptr, false, std::string(what)});
+  impl_->waiting.push_back({nullptr, false, std::string(what)});
 }
 
 std::vector<std::string> LanguageServer::receive_garbage(std::string_view what) {
@@ -131,11 +130,11 @@ std::vector<std::string> LanguageServer::receive_garbage(std::string_view what) 
 }
 
 std::optional<bool> LanguageServer::ended_well() const {
-  return state_->ended_well;
+  return impl_->ended_well;
 }
 
-/// Puts a message behind those that wait; one that cancels takes effect on them at once.
-void LanguageServer::State::take(std::string_view text) {
+/// Queues a message; a cancellation takes effect at once.
+void LanguageServer::Impl::take(std::string_view text) {
   auto message = Json::parse(text, nullptr, false);
   if (text_of(member(message, "method")) != "$/cancelRequest") {
     waiting.push_back({std::move(message), false, {}});
@@ -147,7 +146,7 @@ void LanguageServer::State::take(std::string_view text) {
       one.is_cancelled = true;
 }
 
-void LanguageServer::State::answer(const Waiting& next) {
+void LanguageServer::Impl::answer(const Waiting& next) {
   const auto& message = next.message;
   if (!next.fault.empty()) {
     fail(nullptr, {RpcError::ParseError, next.fault});
@@ -163,7 +162,7 @@ void LanguageServer::State::answer(const Waiting& next) {
   const auto method = text_of(member(message, "method"));
   if (method.empty()) {
     const bool is_response = has_id && (message.contains("result") || message.contains("error"));
-    if (!is_response) // this server asks nothing, so a response answers nothing
+    if (!is_response) // this server sends no requests, so responses are ignored
       fail(good_id ? id : Json(), {RpcError::InvalidRequest, "the message names no method"});
     return;
   }
@@ -186,34 +185,34 @@ void LanguageServer::State::answer(const Waiting& next) {
     fail(id, answer.error());
 }
 
-void LanguageServer::State::notification(const std::string& method, const Json& params) {
+void LanguageServer::Impl::notification(const std::string& method, const Json& params) {
   struct Row {
     std::string_view name;
-    void (State::*take)(const Json&);
+    void (Impl::*take)(const Json&);
   };
   static constexpr Row rows[] = {
-      {"exit", &State::exit},
-      {"textDocument/didOpen", &State::did_open},
-      {"textDocument/didChange", &State::did_change},
-      {"textDocument/didClose", &State::did_close},
-      {"workspace/didChangeWatchedFiles", &State::did_change_files},
+      {"exit", &Impl::exit},
+      {"textDocument/didOpen", &Impl::did_open},
+      {"textDocument/didChange", &Impl::did_change},
+      {"textDocument/didClose", &Impl::did_close},
+      {"workspace/didChangeWatchedFiles", &Impl::did_change_files},
   };
   for (const auto& row : rows)
     if (row.name == method && (method == "exit" || (initialized && !shut_down)))
       (this->*row.take)(params);
 }
 
-Answer LanguageServer::State::request(const std::string& method, const Json& params) {
+Answer LanguageServer::Impl::request(const std::string& method, const Json& params) {
   struct Row {
     std::string_view name;
-    Answer (State::*answer)(const Json&);
+    Answer (Impl::*answer)(const Json&);
   };
   static constexpr Row rows[] = {
-      {"initialize", &State::initialize},
-      {"shutdown", &State::shutdown},
-      {"workspace/symbol", &State::symbols_of_all},
-      {"callHierarchy/incomingCalls", &State::incoming_calls},
-      {"callHierarchy/outgoingCalls", &State::outgoing_calls},
+      {"initialize", &Impl::initialize},
+      {"shutdown", &Impl::shutdown},
+      {"workspace/symbol", &Impl::symbols_of_all},
+      {"callHierarchy/incomingCalls", &Impl::incoming_calls},
+      {"callHierarchy/outgoingCalls", &Impl::outgoing_calls},
   };
   if (!initialized && method != "initialize")
     return refuse(RpcError::ServerNotInitialized, "the first request must be `initialize`");
@@ -225,7 +224,7 @@ Answer LanguageServer::State::request(const std::string& method, const Json& par
   return ask_document(method, params);
 }
 
-Answer LanguageServer::State::ask_document(const std::string& method, const Json& params) {
+Answer LanguageServer::Impl::ask_document(const std::string& method, const Json& params) {
   const auto* const known = find_method(method);
   if (known == nullptr)
     return refuse(RpcError::MethodNotFound,
@@ -243,13 +242,13 @@ Answer LanguageServer::State::ask_document(const std::string& method, const Json
   return known->answer(space, {uri, *document, params, *at});
 }
 
-Answer LanguageServer::State::initialize(const Json& params) {
+Answer LanguageServer::Impl::initialize(const Json& params) {
   if (initialized)
     return refuse(RpcError::InvalidRequest, "`initialize` was already sent");
   initialized = true;
   const auto& offered =
       member(member(member(params, "capabilities"), "general"), "positionEncodings");
-  // UTF-8 costs nothing here, so it is taken where it is offered; UTF-16 is what all clients know.
+  // UTF-8 is free of conversions, so it is chosen if offered; every client supports UTF-16.
   const auto offers = [&](const char* name) {
     return offered.is_array() && std::find(offered.begin(), offered.end(), name) != offered.end();
   };
@@ -275,28 +274,28 @@ Answer LanguageServer::State::initialize(const Json& params) {
               {"serverInfo", {{"name", "orb"}, {"version", ORB_VERSION}}}};
 }
 
-Answer LanguageServer::State::shutdown(const Json&) {
+Answer LanguageServer::Impl::shutdown(const Json&) {
   shut_down = true;
   return Json();
 }
 
-Answer LanguageServer::State::symbols_of_all(const Json& params) {
+Answer LanguageServer::Impl::symbols_of_all(const Json& params) {
   return workspace_symbols(space, text_of(member(params, "query")));
 }
 
-Answer LanguageServer::State::incoming_calls(const Json& params) {
+Answer LanguageServer::Impl::incoming_calls(const Json& params) {
   return calls(space, params, true);
 }
 
-Answer LanguageServer::State::outgoing_calls(const Json& params) {
+Answer LanguageServer::Impl::outgoing_calls(const Json& params) {
   return calls(space, params, false);
 }
 
-void LanguageServer::State::exit(const Json&) {
+void LanguageServer::Impl::exit(const Json&) {
   ended_well = shut_down;
 }
 
-void LanguageServer::State::did_open(const Json& params) {
+void LanguageServer::Impl::did_open(const Json& params) {
   const auto& item = member(params, "textDocument");
   const auto uri = text_of(member(item, "uri"));
   if (uri.empty() || !member(item, "text").is_string()) {
@@ -313,7 +312,7 @@ void LanguageServer::State::did_open(const Json& params) {
   publish_readers(uri);
 }
 
-void LanguageServer::State::did_change(const Json& params) {
+void LanguageServer::Impl::did_change(const Json& params) {
   const auto& item = member(params, "textDocument");
   const auto uri = text_of(member(item, "uri"));
   auto* const document = space.find(uri);
@@ -342,7 +341,7 @@ void LanguageServer::State::did_change(const Json& params) {
   publish_readers(uri);
 }
 
-void LanguageServer::State::apply(const Json& change, Document& document) {
+void LanguageServer::Impl::apply(const Json& change, Document& document) {
   if (!member(change, "text").is_string()) {
     log("ignored a change without text");
     return;
@@ -361,20 +360,20 @@ void LanguageServer::State::apply(const Json& change, Document& document) {
   document.source = Source(document.source.name(), std::move(text));
 }
 
-void LanguageServer::State::did_close(const Json& params) {
+void LanguageServer::Impl::did_close(const Json& params) {
   const auto uri = text_of(member(member(params, "textDocument"), "uri"));
   if (space.documents().erase(uri) == 0)
     return;
   notify("textDocument/publishDiagnostics", {{"uri", uri}, {"diagnostics", Json::array()}});
-  publish_readers(uri); // from now on they see what the disk holds
+  publish_readers(uri); // from now on they see the file on disk
 }
 
-void LanguageServer::State::did_change_files(const Json& params) {
+void LanguageServer::Impl::did_change_files(const Json& params) {
   for (const auto& change : member(params, "changes"))
     publish_readers(text_of(member(change, "uri")));
 }
 
-void LanguageServer::State::publish(const std::string& uri, Document& document) {
+void LanguageServer::Impl::publish(const std::string& uri, Document& document) {
   auto list = Json::array();
   for (const auto& one : space.check(document))
     list.push_back(diagnostic(space, uri, document, one));
@@ -384,8 +383,8 @@ void LanguageServer::State::publish(const std::string& uri, Document& document) 
   notify("textDocument/publishDiagnostics", std::move(params));
 }
 
-/// The findings of the open documents that include, use or test the file that `uri` names.
-void LanguageServer::State::publish_readers(const std::string& uri) {
+/// Publishes the findings of open documents that include, use or test the file at `uri`.
+void LanguageServer::Impl::publish_readers(const std::string& uri) {
   const auto path = path_of_uri(uri);
   for (auto& [other, document] : space.documents())
     if (other != uri && document.reads.contains(path))

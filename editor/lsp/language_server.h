@@ -11,51 +11,51 @@
 
 namespace orb::editor {
 
-/// The folders that an editor has open.
+/// The workspace folders of an editor.
 class Folders {
 public:
   virtual ~Folders() = default;
 
-  /// The paths of the programs, macros and tests below `root`, bounded in number, in order.
+  /// The paths of programs, macros and tests below `root`, sorted, up to a limit.
   virtual std::vector<std::string> sources(const std::string& root) = 0;
 };
 
-/// A language server without a transport: JSON messages in, JSON messages out. It holds the open
-/// documents and nothing else, reads no clock, and answers every message, however
-/// malformed, without throwing.
+/// A language server without a transport: JSON messages in, JSON messages out. Its only state is
+/// the open documents. It reads no clock, and answers every message, however malformed, without
+/// throwing.
 class LanguageServer {
 public:
-  /// What programs include is taken from the open documents, then from `disk`; null: no file. Both
-  /// must outlive the server. `say`: how findings are said.
+  /// Reads included files from the open documents, then from `disk`; null: no files. Both must
+  /// outlive the server. `say` words the findings.
   explicit LanguageServer(structured::Files* disk = nullptr, Folders* folders = nullptr,
                           Say say = &in_english);
   ~LanguageServer();
   LanguageServer(const LanguageServer&) = delete;
   LanguageServer& operator=(const LanguageServer&) = delete;
 
-  /// Takes one message; returns the answer and the notifications that it causes.
+  /// Handles one message; returns the answer and the resulting notifications.
   std::vector<std::string> receive(std::string_view message);
 
-  /// The same in two steps, so that a message can overtake: taken now, answered when its turn
-  /// comes. A request that is cancelled before that is answered so, without the work.
+  /// The same in two steps, so that a cancellation can overtake: take() queues, answer_next()
+  /// answers. A request cancelled in between is answered without doing the work.
   void take(std::string_view message);
-  /// Something that is not a message at all.
+  /// Queues input that is not a message.
   void take_garbage(std::string_view what);
   bool has_waiting() const;
-  /// Answers the oldest message that waits.
+  /// Answers the oldest queued message.
   std::vector<std::string> answer_next();
 
-  /// What to answer to such a thing.
+  /// Returns the answer to input that is not a message.
   std::vector<std::string> receive_garbage(std::string_view what);
 
-  /// Set once `exit` arrived: whether `shutdown` came before it, as it should.
+  /// Set once `exit` arrived: true if `shutdown` came first, as required.
   std::optional<bool> ended_well() const;
 
 private:
   std::vector<std::string> answer_all();
 
-  struct State;
-  std::unique_ptr<State> state_;
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
 };
 
 } // namespace orb::editor

@@ -1,6 +1,6 @@
 #include "editor/lsp/methods.h"
 
-#include "editor/lsp/shape_answers.h"
+#include "editor/lsp/shape_json.h"
 
 #include <algorithm>
 #include <array>

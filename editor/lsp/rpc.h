@@ -6,11 +6,11 @@
 #include <tl/expected.hpp>
 #include <utility>
 
-// What a request of the Language Server Protocol is answered with.
+// Answers to requests of the Language Server Protocol.
 
 namespace orb::editor {
 
-/// Numbers of the protocol.
+/// Error codes of the protocol.
 enum class RpcError : int {
   ParseError = -32700,
   InvalidRequest = -32600,
@@ -22,7 +22,7 @@ enum class RpcError : int {
   RequestCancelled = -32800,
 };
 
-/// Why a request is not answered.
+/// Why a request is refused.
 struct Refusal {
   RpcError error = RpcError::InvalidParams;
   std::string message;

@@ -1,133 +1,61 @@
-#include "editor/lsp/shape_answers.h"
+#include "editor/lsp/methods.h"
 
-#include "base/text/text.h"
+#include "editor/lsp/shape_json.h"
 
 namespace orb::editor {
-namespace {
-
-struct DeedInfo {
-  std::string_view title;
-  std::string_view command;
-};
-
-DeedInfo info(Lens::Deed deed) {
-  switch (deed) {
-  case Lens::Deed::Run: return {"run", "orb.run"};
-  case Lens::Deed::Debug: return {"debug", "orb.debug"};
-  case Lens::Deed::RunTest: return {"run test", "orb.runTest"};
-  case Lens::Deed::DebugTest: break;
-  }
-  return {"debug test", "orb.debugTest"};
+Answer all_colors(const Workspace& space, const Asked& asked) {
+  const auto& source = asked.document.source;
+  return pack_colors(space, source, asked.document.shape().colors(source, space.options),
+                     {0, static_cast<std::uint32_t>(source.text().size())});
 }
 
-} // namespace
-
-Json shape_capabilities() {
-  return {{"semanticTokensProvider",
-           {{"legend", {{"tokenTypes", color_names}, {"tokenModifiers", trait_names}}},
-            {"full", true},
-            {"range", true}}},
-          {"foldingRangeProvider", true},
-          {"selectionRangeProvider", true},
-          {"signatureHelpProvider", {{"triggerCharacters", {" ", "(", ","}}}},
-          {"documentLinkProvider", Json::object()},
-          {"codeLensProvider", Json::object()},
-          {"callHierarchyProvider", true},
-          {"workspaceSymbolProvider", true}};
+Answer colors_within(const Workspace& space, const Asked& asked) {
+  const auto& source = asked.document.source;
+  const auto place = space.span(source, member(asked.params, "range"));
+  if (!place)
+    return refuse(RpcError::InvalidParams, "a range has a start and an end");
+  return pack_colors(space, source, asked.document.shape().colors(source, space.options), *place);
 }
 
-Json pack_colors(const Wording& words, const Source& source, const std::vector<Colored>& colors,
-                 Span within) {
-  auto data = Json::array();
-  auto places = words.ruler(source);
-  TextPosition last;
-  for (const auto& one : colors) {
-    if (one.span.end < within.begin || within.end < one.span.begin)
-      continue;
-    const auto begin = places(one.span.begin);
-    const auto end = places(one.span.end);
-    if (end.line != begin.line || end.character <= begin.character)
-      continue;
-    const bool same_line = begin.line == last.line;
-    data.push_back(begin.line - last.line);
-    data.push_back(same_line ? begin.character - last.character : begin.character);
-    data.push_back(end.character - begin.character);
-    data.push_back(static_cast<int>(one.color));
-    data.push_back(one.traits);
-    last = begin;
-  }
-  return {{"data", std::move(data)}};
+Answer folds(const Workspace&, const Asked& asked) {
+  return list_folds(asked.document.shape().folds(asked.document.source));
 }
 
-Json list_folds(const std::vector<Fold>& folds) {
+Answer selections(const Workspace& space, const Asked& asked) {
+  const auto& source = asked.document.source;
+  const auto& positions = member(asked.params, "positions");
+  if (!positions.is_array())
+    return refuse(RpcError::InvalidParams, "`positions` must be a list of positions");
   auto list = Json::array();
-  for (const auto& fold : folds) {
-    Json one{{"startLine", fold.first - 1}, {"endLine", fold.last - 1}};
-    if (fold.is_comment)
-      one["kind"] = "comment";
-    list.push_back(std::move(one));
+  for (const auto& one : positions) {
+    const auto at = space.offset(source, one);
+    if (!at)
+      return refuse(RpcError::InvalidParams,
+                    "a position is a line and a character, both counted from 0");
+    list.push_back(nest_ranges(space, source,
+                               nested(source, *at, asked.document.shape().around(source, *at))));
   }
   return list;
 }
 
-Json nest_ranges(const Wording& words, const Source& source, const std::vector<Span>& chain) {
-  Json outer;
-  for (auto span = chain.rbegin(); span != chain.rend(); ++span) {
-    Json one{{"range", words.range(source, *span)}};
-    if (!outer.is_null())
-      one["parent"] = std::move(outer);
-    outer = std::move(one);
-  }
-  return outer;
+Answer signature(const Workspace& space, const Asked& asked) {
+  const auto& document = asked.document;
+  const auto found = document.shape().signature(document.source, asked.at, space.options);
+  return found ? describe(*found) : Json();
 }
 
-Json describe(const Signature& signature) {
-  auto parameters = Json::array();
-  for (const auto& one : signature.parameters) {
-    // Labels are ASCII: a byte is a unit of every encoding.
-    Json json{{"label", {one.in_label.begin, one.in_label.end}}};
-    if (!one.text.empty())
-      json["documentation"] = one.text;
-    parameters.push_back(std::move(json));
-  }
-  Json made{{"label", signature.label}, {"parameters", std::move(parameters)}};
-  if (!signature.markdown.empty())
-    made["documentation"] = {{"kind", "markdown"}, {"value", signature.markdown}};
-  return {{"signatures", Json::array({std::move(made)})},
-          {"activeSignature", 0},
-          {"activeParameter", signature.active}};
+Answer links(const Workspace& space, const Asked& asked) {
+  const auto& document = asked.document;
+  auto* const links = document.shape().links;
+  return list_links(space, document.source,
+                    links != nullptr ? links(document.source) : std::vector<Link>());
 }
 
-Json list_links(const Wording& words, const Source& source, const std::vector<Link>& links) {
-  auto list = Json::array();
-  for (const auto& link : links)
-    list.push_back({{"range", words.range(source, link.span)}, {"target", uri_of_path(link.path)}});
-  return list;
-}
-
-Json list_lenses(const Wording& words, const std::string& uri, const Source& source,
-                 const std::vector<Lens>& lenses) {
-  auto list = Json::array();
-  for (const auto& lens : lenses) {
-    const auto [title, command] = info(lens.deed);
-    const bool of_test = lens.deed == Lens::Deed::RunTest || lens.deed == Lens::Deed::DebugTest;
-    auto arguments = Json::array({uri});
-    if (of_test)
-      arguments.push_back(lens.name);
-    list.push_back({{"range", words.range(source, lens.span)},
-                    {"command",
-                     {{"title", of_test && lens.name.empty() ? "run all tests" : title},
-                      {"command", command},
-                      {"arguments", std::move(arguments)}}}});
-  }
-  return list;
-}
-
-bool answers_to(std::string_view name, std::string_view query) {
-  for (const char c : name)
-    if (!query.empty() && to_lower(c) == to_lower(query.front()))
-      query.remove_prefix(1);
-  return query.empty();
+Answer lenses(const Workspace& space, const Asked& asked) {
+  const auto& document = asked.document;
+  auto* const lenses = document.shape().lenses;
+  return list_lenses(space, asked.uri, document.source,
+                     lenses != nullptr ? lenses(document.source) : std::vector<Lens>());
 }
 
 } // namespace orb::editor

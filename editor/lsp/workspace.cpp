@@ -86,7 +86,7 @@ LanguageOptions Workspace::surroundings(const std::vector<Source>& closed) const
   return all;
 }
 
-/// Calls `visit` with the path and the text of each file of the open folders_ that is not open.
+/// Calls `visit` with path and text of each file in the open folders that is not an open document.
 void Workspace::each_closed_file(
     const std::function<void(const std::string&, std::string)>& visit) const {
   if (folders_ == nullptr || disk_ == nullptr)

@@ -16,61 +16,62 @@
 
 namespace orb::editor {
 
-/// A text that the editor has open.
+/// A text open in the editor.
 struct Document {
   Source source;
   const LanguageService* language = nullptr;
   std::optional<std::int64_t> version;
-  std::set<std::string> reads = {}; ///< the paths that its findings were made from
+  std::set<std::string> reads = {}; ///< files that its findings depend on
 
   const LanguageShape& shape() const { return *language->shape; }
 };
 
-/// The language by the editor's word for it, else by the ending of the file's name.
+/// The language by the editor's language id, else by file extension.
 const LanguageService& language_of(std::string_view id, std::string_view uri);
 
-/// The documents that are open, and what lies beside them on the disk.
+/// The open documents and the files around them on disk.
 class Workspace final : public structured::Files, public Wording {
 public:
-  /// Both outlive it; null: nothing is on the disk. `told`: how findings are said.
+  /// Both must outlive it; null: no files on disk. `told` words the findings.
   Workspace(structured::Files* disk, Folders* folders, Say told);
 
-  // What programs include: an open document, else what the disk holds.
+  // Reads included files: an open document, else the file on disk.
   std::optional<std::string> read(const std::string& path) override;
   Message obstacle(const std::string& path) override;
   std::string identity(const std::string& path) override;
 
   std::map<std::string, Document>& documents() { return documents_; }
   const std::map<std::string, Document>& documents() const { return documents_; }
-  /// Null where it is not open.
+  /// Returns null if it is not open.
   Document* find(const std::string& uri);
 
-  /// The findings of a document, which notes what files they were made from.
+  /// Checks a document, and records the files that its findings depend on.
   std::vector<Diagnostic> check(Document& document);
-  /// The same without a note.
+  /// The same without recording.
   std::vector<Diagnostic> check(const Document& document) const;
 
-  /// The options, with all open structured programs and those given.
+  /// The options, with all open structured programs and `closed`.
   LanguageOptions surroundings(const std::vector<Source>& closed = {}) const;
-  /// The programs on the disk that may include a structured program.
+  /// Programs on disk that may include a structured program.
   std::vector<Source> closed_programs(const Document& document) const;
-  /// Calls `visit` with the path and the text of each file of the open folders that is not open.
+  /// Calls `visit` with path and text of each file in the open folders that is not an open
+  /// document.
   void each_closed_file(const std::function<void(const std::string&, std::string)>& visit) const;
-  /// A program's file is named by its path; an open text by its URI.
+  /// The URI of a file, made from its path; an open text is named by its URI.
   std::string uri_of(const Source& source) const;
 
   LanguageOptions options;
   Say say;
-  std::vector<std::string> roots; ///< the paths of the folders that the editor has open
+  std::vector<std::string> roots; ///< paths of the editor's open folders
 
 private:
   structured::Files* disk_;
   Folders* folders_;
-  std::set<std::string>* reads_ = nullptr; ///< where `read` notes what it is asked for
+  std::set<std::string>* reads_ = nullptr; ///< where `read` records requested paths
   std::map<std::string, Document> documents_;
 };
 
-/// A finding as the protocol has it.
+/// A finding in the protocol's form.
 Json diagnostic(const Workspace& space, const std::string& uri, const Document& document,
                 const Diagnostic& one);
 

@@ -4,7 +4,7 @@
 #include "editor/directives.h"
 #include "spec/basic.h"
 #include "spec/macro.h"
-#include "structured/text/words.h"
+#include "structured/text/structured_words.h"
 #include "testing/text/vocabulary.h"
 #include "vm/stimulus.h"
 
@@ -21,7 +21,7 @@ bool is_capital(char c) {
   return c >= 'A' && c <= 'Z';
 }
 
-/// Without what may be left out: `sub NAME[(NAME, …)]` is `sub NAME`.
+/// Drops optional parts: `sub NAME[(NAME, …)]` becomes `sub NAME`.
 std::string without_options(std::string_view usage) {
   std::string out;
   int depth = 0;
@@ -36,8 +36,8 @@ std::string without_options(std::string_view usage) {
   return std::string(trim(out));
 }
 
-/// `while CONDITION` as `while ${1:condition}`.
-class Body {
+/// `while CONDITION` becomes `while ${1:condition}`.
+class SnippetBody {
 public:
   std::string operator()(std::string_view usage) {
     std::string out;
@@ -78,7 +78,7 @@ void add_statements(Json& all, std::string_view separator) {
   for (const auto& row : spec::statements) {
     if (row.form != spec::Form::Arguments || row.parameters().empty())
       continue;
-    Body body;
+    SnippetBody body;
     std::string text(row.word);
     for (const auto& parameter : row.parameters())
       text += fmt::format("{}{}", text == row.word ? " " : separator, body.place(parameter.name));
@@ -86,7 +86,7 @@ void add_statements(Json& all, std::string_view separator) {
   }
 }
 
-/// `loop … end loop`: the lines that begin and end a block, and one between them.
+/// `loop … end loop`: the first and last lines of a block, with one line in between.
 void add_blocks(Json& all, const structured::WordInfo& row) {
   constexpr std::string_view between = " · ";
   constexpr std::string_view lines = " … ";
@@ -99,7 +99,7 @@ void add_blocks(Json& all, const structured::WordInfo& row) {
     const auto last_at = usage.rfind(lines);
     if (last_at == usage.npos || usage.find("[else") != usage.npos)
       continue;
-    Body body;
+    SnippetBody body;
     const auto last = without_options(usage.substr(last_at + lines.size()));
     const auto head = body(first);
     add(all, fmt::format("{} … {}", first, last), row.word,
@@ -127,9 +127,9 @@ std::string macro_snippets() {
   Json all = Json::object();
   for (const auto& row : macro_directives)
     add(all, "." + std::string(row.word), "." + std::string(row.word),
-        Body()(without_options(row.usage)), row.summary);
+        SnippetBody()(without_options(row.usage)), row.summary);
   for (const auto& row : spec::macro_commands) {
-    Body body;
+    SnippetBody body;
     std::string text(row.mnemonic);
     for (const auto& operand : row)
       if (operand.kind != spec::MacroOperandKind::Delay || operand.width > 1)

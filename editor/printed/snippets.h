@@ -6,8 +6,7 @@
 
 namespace orb::editor {
 
-/// Snippets for VS Code and for whatever reads its form, a file a language, printed from the
-/// tables.
+/// Snippets in VS Code's format, one file per language, generated from the tables.
 std::vector<SyntaxFile> snippet_files();
 
 } // namespace orb::editor

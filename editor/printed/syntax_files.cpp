@@ -17,14 +17,14 @@ using Json = nlohmann::ordered_json;
 
 // ---- TextMate grammars
 
-/// Longer words first, so that none hides behind its own beginning.
+/// Puts longer words first: a shorter one would hide those that begin with it.
 std::string alternatives(Words words) {
   std::stable_sort(words.begin(), words.end(),
                    [](std::string_view a, std::string_view b) { return a.size() > b.size(); });
   return fmt::format("{}", fmt::join(words, "|"));
 }
 
-/// A pattern for whole words, where `part` is what words are made of.
+/// A pattern for whole words; `part` is the class of word characters.
 Json words_pattern(const char* name, const Words& words, std::string_view part) {
   return {{"name", name},
           {"match", fmt::format("(?<![{0}])(?:{1})(?![{0}])", part, alternatives(words))}};
@@ -145,7 +145,7 @@ std::string stimulus_textmate() {
 
 // ---- Vim
 
-/// `syntax keyword GROUP WORD…`, a few words a line.
+/// `syntax keyword GROUP WORD…`, a few words per line.
 std::string vim_keywords(std::string_view group, const Words& words) {
   constexpr std::size_t a_line = 8;
   std::string out;

@@ -2,9 +2,9 @@
 
 #include "editor/directives.h"
 #include "editor/printed/word_lists.h"
-#include "editor/words.h"
+#include "editor/word_at.h"
 #include "spec/basic.h"
-#include "structured/text/words.h"
+#include "structured/text/structured_words.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -19,7 +19,7 @@ using spec::Form;
 constexpr std::string_view printed =
     "Printed by `orb spec --editors docs/editors`; a test compares them.";
 
-// ---- what the tables say, as JavaScript
+// ---- tables as JavaScript
 
 /// `const name = ['a', 'b'];`, broken into lines.
 std::string list(std::string_view name, const Words& words) {
@@ -38,7 +38,7 @@ std::string list(std::string_view name, const Words& words) {
   return out + "\n];\n";
 }
 
-/// The words of the statements with one of these forms that `keep` keeps.
+/// The words of statements with one of these forms, filtered by `keep`.
 template <typename Keep>
 Words of_forms(std::initializer_list<Form> forms, Keep keep) {
   return words_of(spec::statements, [&](const spec::StatementInfo& row) {
@@ -52,7 +52,7 @@ Words of_form(Form form) {
   return of_forms({form});
 }
 
-/// Statements whose words are followed by values, which are all of one shape.
+/// The forms of statements that take a list of values with a common syntax.
 constexpr std::initializer_list<Form> plain_forms{Form::Entry, Form::Values, Form::Variables,
                                                   Form::Arguments};
 
@@ -141,7 +141,7 @@ std::string basic_grammar() {
 
 // ---- structured orbBasic
 
-/// The robot's statements that have a rule of their own there.
+/// The robot's statements with a grammar rule of their own.
 constexpr std::initializer_list<spec::Statement> ruled{
     spec::Statement::If,     spec::Statement::For,   spec::Statement::Next, spec::Statement::Goto,
     spec::Statement::Return, spec::Statement::Print, spec::Statement::End};
@@ -240,7 +240,7 @@ bool is_keyword(std::string_view word) {
   return structured::find_word(word).kind == structured::WordKind::Keyword;
 }
 
-/// The robot's statements that structured programs have, with rules of their own or not.
+/// The robot's statements in structured programs, with or without the ones in `ruled`.
 Words structured_statements(bool with_rules) {
   return words_of(spec::statements, [with_rules](const spec::StatementInfo& row) {
     const bool has_rule = std::find(ruled.begin(), ruled.end(), row.statement) != ruled.end();
@@ -300,7 +300,7 @@ std::string macro_grammar() {
          list("values", macro_value_words()) + std::string(macro_rules);
 }
 
-// ---- what is coloured how
+// ---- highlighting
 
 /// `["a" "b"] @capture`.
 std::string capture(const Words& words, std::string_view name) {

@@ -6,8 +6,8 @@
 
 namespace orb::editor {
 
-/// The tree-sitter grammars of programs and macros with their highlighting queries, printed from
-/// the tables. What `tree-sitter generate` makes of a grammar lies beside it: `./dev grammars`.
+/// The tree-sitter grammars of programs and macros with highlighting queries, generated from the
+/// tables. `./dev grammars` runs `tree-sitter generate`, whose output is next to each grammar.
 std::vector<SyntaxFile> tree_sitter_files();
 
 } // namespace orb::editor

@@ -1,9 +1,9 @@
 #include "editor/printed/word_lists.h"
 
-#include "editor/words.h"
+#include "editor/word_at.h"
 #include "spec/basic.h"
 #include "spec/macro.h"
-#include "structured/text/words.h"
+#include "structured/text/structured_words.h"
 #include "testing/text/vocabulary.h"
 #include "vm/stimulus.h"
 
@@ -43,8 +43,7 @@ Words macro_command_words() {
   return words;
 }
 
-/// The words of structured programs that the robot's tables do not have, and those that end blocks
-/// or jump.
+/// The words only structured programs have, and those that end blocks or jump.
 Words structured_control_words() {
   auto words = control_words();
   std::erase_if(words, [](std::string_view word) {
@@ -65,7 +64,7 @@ Words structured_statement_words() {
   return words;
 }
 
-/// Flags and the words that stand for values of operands.
+/// Flags and named values of operands.
 Words macro_value_words() {
   Words words;
   const auto add = [&](std::string_view word) {
@@ -85,7 +84,7 @@ Words test_words() {
   auto words = words_of(testing::line_words);
   const auto add = [&](const auto& more) {
     for (const auto word : more)
-      if (std::find(words.begin(), words.end(), word) == words.end()) // `for` begins a line, too
+      if (std::find(words.begin(), words.end(), word) == words.end()) // `for` begins a line as well
         words.emplace_back(word);
   };
   add(words_of(testing::when_words));

@@ -3,14 +3,13 @@
 #include <string_view>
 #include <vector>
 
-// The words of each language, as an editor colours them: printed into every grammar and syntax
-// file.
+// The words of each language by colour, for all grammars and syntax files.
 
 namespace orb::editor {
 
 using Words = std::vector<std::string_view>;
 
-/// The words of those rows of a table that `keep` keeps.
+/// The words in the rows of a table, filtered by `keep`.
 template <typename Table, typename Keep>
 Words words_of(const Table& table, Keep keep) {
   Words words;
@@ -29,13 +28,12 @@ Words statement_words();
 Words function_words();
 Words variable_words();
 
-/// The words of structured programs that the robot's tables do not have, and those that end blocks
-/// or jump.
+/// The words only structured programs have, and those that end blocks or jump.
 Words structured_control_words();
 Words structured_statement_words();
 
 Words macro_command_words();
-/// Flags and the words that stand for values of operands.
+/// Flags and named values of operands.
 Words macro_value_words();
 
 Words test_words();

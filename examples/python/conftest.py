@@ -22,7 +22,7 @@ def ball():
 
 @pytest.fixture
 def run():
-    """run("square.orb", "--seed", "2") gives the events of a run, a dictionary each (docs/ball.md)."""
+    """run("square.orb", "--seed", "2") gives the events of a run, a dictionary each (docs/reference/traces.md)."""
 
     def run(*arguments):
         command = [ORB, "run", *arguments, "--trace", "json"]

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "playground/engine/log_link.h"
+#include "playground/engine/reins.h"
 #include "playground/engine/runs.h"
 #include "run/tether/driven.h"
 
@@ -10,42 +10,36 @@
 
 namespace orb::playground {
 
-/// A program that drives a robot from here, over a link that a browser holds: what it sends comes
-/// in messages, and what is to be sent goes out with their answers. To ready the robot it works as
-/// an upload does; after that every message moves the run on.
+/// A program run here that drives a robot over a link held by the browser. Messages carry the bytes
+/// that arrived; their answers carry the bytes to send. Preparing the robot works like an upload;
+/// afterwards each message advances the run.
 class Drive {
 public:
   static tl::expected<std::unique_ptr<Drive>, Problem> start(Request& request);
-  ~Drive();
 
-  /// Takes what came of the link, and `stop`; the answer has `wish` (to ready the robot), or
-  /// `write` and `wait_ms`, with the `frame` of the run where one is asked for, or `over`.
+  /// Takes the bytes from the link, and `stop`. The answer has `wish` (while preparing the robot),
+  /// or `write` and `wait_ms`, with the run's `frame` if requested, or `over`.
   Answer step(const ordered_json& message);
 
-  /// Of the run; null before it has begun.
+  /// The run; null before it begins.
   Run* run() { return run_.get(); }
 
 private:
   explicit Drive(const Request& request);
 
-  class Line;
   Answer ready(const ordered_json& message);
   Answer drive(const ordered_json& message);
-  Answer wind_up(const ordered_json& message);
-  Answer go_on(const ordered_json& message, double wait_ms);
+  Answer wind_up();
   Answer over();
 
-  Said& said_;
-  ordered_json request_; ///< of the run, which begins when the robot is ready
+  SentenceLog& said_;
+  ordered_json request_; ///< starts the run when the robot is ready
   run::TetherOptions options_;
-  std::vector<Done> log_;
-  std::unique_ptr<Line> line_;
-  std::unique_ptr<run::Tether> robot_;
+  Reins reins_;
   std::unique_ptr<Run> run_;
   std::unique_ptr<run::Driven> driven_;
-  std::optional<Instant> ends_at_; ///< it winds up until then
-  bool has_ended_ = false;         ///< by itself
-  std::string trouble_;            ///< why it could not go on
+  bool has_ended_ = false; ///< ended without being stopped
+  std::string trouble_;    ///< why it could not continue
 };
 
 } // namespace orb::playground

@@ -9,17 +9,17 @@
 
 namespace orb::playground {
 
-/// What a browser's link did when it was asked to.
+/// The result of an operation on the browser's link.
 struct Done {
-  Instant at{}; ///< when it was done
-  Bytes bytes;  ///< of a read
+  Instant at{}; ///< when it completed
+  Bytes bytes;  ///< for a read
   std::optional<protocol::LinkError> error;
 };
 
-/// What a message says of the link: `at`, and `bytes` or an `error`.
+/// Reads the link's part of a message: `at`, and `bytes` or an `error`.
 Done read_done(const ordered_json& message);
 
-/// The link as far as it has been used; then it wishes.
+/// Replays the operations done so far, then asks for the next one.
 class LogLink final : public protocol::Transport {
 public:
   explicit LogLink(const std::vector<Done>& done) : done_(done) {}
@@ -37,7 +37,7 @@ public:
                         : tl::expected<Bytes, protocol::LinkError>(done->bytes);
   }
 
-  /// What is to be done next; null where the log was enough.
+  /// The next operation; null if the log was sufficient.
   const ordered_json& wish() const { return wish_; }
 
 private:

@@ -12,7 +12,7 @@
 namespace orb::playground {
 namespace {
 
-constexpr auto hex_member = "hex"; // what a Uint8Array is in JSON
+constexpr auto hex_member = "hex"; // a Uint8Array in JSON
 
 std::string_view without_root(std::string_view path) {
   while (path.starts_with('/') || path.starts_with("./"))
@@ -60,7 +60,7 @@ std::vector<std::string> MemoryFiles::sources(const std::string&) {
   return found;
 }
 
-Request::Request(const ordered_json& given, Said& kept)
+Request::Request(const ordered_json& given, SentenceLog& kept)
     : params(given), said(kept), files(given), names(texts("names")) {
   if (names.empty() && !files.first().empty())
     names = {files.first()};

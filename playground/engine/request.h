@@ -4,7 +4,7 @@
 #include "base/source.h"
 #include "base/time.h"
 #include "editor/lsp/language_server.h"
-#include "playground/engine/said.h"
+#include "playground/engine/sentence_log.h"
 #include "run/input.h"
 #include "structured/text/files.h"
 
@@ -16,13 +16,13 @@
 #include <tl/expected.hpp>
 #include <vector>
 
-// What a page asks for, read. playground/README.md has the form of every request.
+// Requests of a page. playground/README.md describes each one.
 
 namespace orb::playground {
 
 using nlohmann::ordered_json;
 
-/// Why a request is not answered; `findings` is a document of `orb check --format json`, or empty.
+/// Why a request failed; `findings` is a document of `orb check --format json`, or empty.
 struct Problem {
   ExitCode code = ExitCode::BadInput;
   std::string message;
@@ -35,7 +35,7 @@ using Answer = tl::expected<std::string, Problem>;
 tl::unexpected<Problem> refuse(const Failure& failure);
 tl::unexpected<Problem> refuse(ExitCode code, std::string message);
 
-/// All files that there are: a path has no `/` in front.
+/// All available files; paths have no leading `/`.
 class MemoryFiles final : public structured::Files, public editor::Folders {
 public:
   MemoryFiles() = default;
@@ -45,7 +45,7 @@ public:
   /// Programs, macros and tests, as paths from the root.
   std::vector<std::string> sources(const std::string& root) override;
 
-  /// The first of all; empty where there is none.
+  /// The first file; empty if there is none.
   std::string first() const { return first_; }
 
 private:
@@ -53,28 +53,28 @@ private:
   std::string first_;
 };
 
-/// The files of a request and which of them are meant.
+/// The files of a request, and which of them it is about.
 struct Request {
-  Request(const ordered_json& given, Said& kept);
+  Request(const ordered_json& given, SentenceLog& kept);
 
   const ordered_json& params;
-  Said& said; ///< keeps what the answer says; outlives the request
+  SentenceLog& said; ///< keeps the messages of the answer; outlives the request
   MemoryFiles files;
   std::vector<std::string> names;
 
-  /// The text of the member `key`, or `otherwise`.
+  /// The text in member `key`, or `otherwise`.
   std::string text(const char* key, std::string_view otherwise = "") const;
   bool flag(const char* key, bool otherwise = false) const;
-  /// A list of texts; one text is a list, too.
+  /// A list of texts; a single text is a list of one.
   std::vector<std::string> texts(const char* key) const;
   template <class Value>
   std::optional<Value> value(const char* key) const;
 
-  /// The text of a file that is there.
+  /// The text of an existing file.
   tl::expected<std::string, Problem> read(const std::string& name);
-  /// The sources that are meant, each in its language.
+  /// The sources that the request is about, each with its language.
   tl::expected<std::vector<run::SourceFile>, Problem> sources();
-  /// The same, ready for a ball: without mistakes.
+  /// The same, ready for a ball; fails if they have errors.
   tl::expected<std::vector<run::Input>, Problem> inputs();
 };
 
@@ -85,10 +85,10 @@ std::optional<Value> Request::value(const char* key) const {
                                                    : std::optional(found->get<Value>());
 }
 
-/// JSON that is fit to be sent: bytes that are no text become U+FFFD.
+/// Serialises JSON; bytes that are not UTF-8 become U+FFFD.
 std::string print(const ordered_json& json);
 
-/// Bytes as a page takes and gives them (engine.js makes a Uint8Array of it).
+/// Bytes as JSON (engine.js converts them from and to a Uint8Array).
 ordered_json bytes_json(ByteView bytes);
 Bytes bytes_of(const ordered_json& json);
 

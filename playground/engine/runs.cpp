@@ -4,7 +4,7 @@
 #include "base/text/utf8.h"
 #include "playground/engine/sources.h"
 #include "run/want.h"
-#include "structured/text/words.h"
+#include "structured/text/structured_words.h"
 #include "vm/stimulus.h"
 
 #include <fmt/format.h>
@@ -13,7 +13,7 @@
 namespace orb::playground {
 namespace {
 
-/// How long a ball is watched that drives on though nothing runs any more.
+/// How long to watch a ball that keeps driving after its program has ended.
 constexpr Duration watched = 5s;
 
 int rgb(vm::Color color) {
@@ -29,7 +29,7 @@ tl::expected<std::unique_ptr<debug::Launched>, Problem> launch(Request& request)
   launch.numbers =
       request.value<std::vector<std::int32_t>>("input").value_or(std::vector<std::int32_t>{});
   launch.client = request.flag("connected", true) ? run::Client::Connected : run::Client::Absent;
-  launch.shape = structured::Shape::Shortest; // the lines that the robot would run
+  launch.shape = structured::Shape::Shortest; // compiled to the lines that the robot would run
   auto launched = debug::read(launch, request.files);
   if (!launched)
     return tl::unexpected(
@@ -75,7 +75,7 @@ ordered_json pose_json(const vm::Pose& pose) {
 } // namespace
 
 tl::expected<std::unique_ptr<Run>, Problem>
-Run::start(Request& request, const Wanted& wanted, vm::Elsewhere* robot, const vm::Sample& first) {
+Run::start(Request& request, const Wanted& wanted, vm::RemoteBody* robot, const vm::Sample& first) {
   auto launched = launch(request);
   if (!launched)
     return tl::unexpected(launched.error());
@@ -147,7 +147,7 @@ tl::expected<void, Problem> Run::apply(const std::string& line) {
     return refuse(ExitCode::BadInput, say_(script.diagnostics.front().message));
   for (const auto& event : script.events) {
     live_->apply(event.stimulus);
-    // What somebody does by hand is part of the world: nobody says later that it never came.
+    // The user's action becomes a stimulus of the run, so no hint says later that it is missing.
     launched_->options.stimuli.push_back({live_->time(), event.stimulus});
   }
   return {};
@@ -173,7 +173,7 @@ std::string Run::frame() {
                            {"ended", rolls_since_ ? run::to_string(live_->so_far()) : ""}};
   told_prints_ = prints_.size();
   auto text = print(frame);
-  if (journey_) // which is JSON already
+  if (journey_) // already JSON
     text.replace(text.size() - 1, 1, ",\"more\":" + report::growth_json(*journey_, shown_) + "}");
   return text;
 }
@@ -195,7 +195,7 @@ Answer Run::answer() {
   if (trace_)
     answer["trace"] = trace_text_;
   auto text = print(answer);
-  if (wanted_.report) // which is JSON already
+  if (wanted_.report) // already JSON
     text.replace(text.size() - 1, 1, ",\"report\":" + report_of(*journey_) + "}");
   return text;
 }

@@ -15,44 +15,45 @@
 
 namespace orb::playground {
 
-/// What a page wants to know of a run besides how it ends.
+/// What a page wants to know about a run besides its end.
 struct Wanted {
   std::optional<report::TraceFormat> trace;
   bool report = false;
 };
 
-/// A run with all that it needs, and what it has come to. A page's live run is moved on bit by bit.
+/// A run with everything it needs, and its results. The page advances its live run step by step.
+/// Large because it keeps all parts and results of a run until the page asks for them.
 class Run final : run::Listener {
 public:
-  /// With a `robot`, which may be null, that is its body; `first` is what it said before.
+  /// With a `robot` (may be null), that is its body; `first` is what it has sent before.
   static tl::expected<std::unique_ptr<Run>, Problem> start(Request& request, const Wanted& wanted,
-                                                           vm::Elsewhere* robot = nullptr,
+                                                           vm::RemoteBody* robot = nullptr,
                                                            const vm::Sample& first = {});
 
-  /// Goes on to its end.
+  /// Runs to the end.
   void finish();
-  /// Goes on to robot time `t`; false once it is over. While it waits for a number it goes on. A
-  /// ball that still drives when nothing runs any more is watched for some seconds.
+  /// Runs to robot time `t`; returns false once it is over. Time passes while it waits for a
+  /// number. A ball that still drives after the end is watched for some seconds.
   bool advance(Duration t);
-  /// Ends it where it has not come to its end by itself.
+  /// Ends the run if it has not ended yet.
   void stop();
-  /// Whoever runs it may give() numbers while it waits for them.
+  /// Lets the caller give() numbers while the run waits for them.
   void keep_waiting() {
     live_->keep_waiting();
     may_wait_ = true;
   }
   void give(std::int32_t number) { live_->give(number); }
-  /// A line of a stimulus script without its time.
+  /// Applies a line of a stimulus script without its time.
   tl::expected<void, Problem> apply(const std::string& line);
 
-  /// The run itself, and who hears of it, for a robot that drives it.
+  /// The run itself and its listener, for a robot that drives it.
   run::Live& live() { return *live_; }
   run::Listener& listener() { return *this; }
 
   std::string hint() const;
   /// What happened since the last frame.
   std::string frame();
-  /// What a player shows of the run so far.
+  /// The player's data for the run so far.
   std::string report_so_far() const;
   /// The answer to `run`.
   Answer answer();
@@ -72,13 +73,13 @@ private:
   std::optional<run::Trace> trace_;
   std::unique_ptr<run::Live> live_;
   std::string prints_;
-  std::vector<run::ProgramError> faults_; ///< that no frame has told
-  report::Shown shown_;                   ///< by the frames
-  std::optional<Duration> rolls_since_;   ///< nothing runs any more
+  std::vector<run::ProgramError> faults_; ///< not in any frame yet
+  report::Shown shown_;                   ///< in the frames
+  std::optional<Duration> rolls_since_;   ///< since when it rolls on after the end
   std::string trace_text_;
   bool over_ = false;
-  bool may_wait_ = false;       ///< somebody may give() numbers
-  std::size_t told_prints_ = 0; ///< by the last frame
+  bool may_wait_ = false;       ///< the caller may give() numbers
+  std::size_t told_prints_ = 0; ///< in the last frame
 };
 
 } // namespace orb::playground

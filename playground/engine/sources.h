@@ -2,7 +2,7 @@
 
 #include "playground/engine/request.h"
 
-// What is asked about sources without running them.
+// Requests about sources that do not run them.
 
 namespace orb::playground {
 

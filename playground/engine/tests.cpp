@@ -2,7 +2,7 @@
 
 #include "base/render.h"
 #include "report/page.h"
-#include "structured/text/words.h"
+#include "structured/text/structured_words.h"
 #include "testing/run_suite.h"
 #include "testing/verdicts/render.h"
 
@@ -17,8 +17,8 @@ public:
   void on_cases(std::uint64_t, std::uint64_t) override {}
 };
 
-tl::expected<testing::Suite, Problem> make_suite(Request& request,
-                                                 const testing::SuiteOptions& options) {
+tl::expected<testing::Suite, Problem>
+make_suite(Request& request, const testing::SuiteOptions& options, structured::Files& files) {
   std::vector<testing::GivenFile> given;
   for (const auto& name : request.names) {
     auto text = request.read(name);
@@ -26,7 +26,7 @@ tl::expected<testing::Suite, Problem> make_suite(Request& request,
       return tl::unexpected(text.error());
     given.push_back({name, *std::move(text)});
   }
-  auto suite = testing::make_suite(std::move(given), options, request.files);
+  auto suite = testing::make_suite(std::move(given), options, files);
   if (!suite)
     return refuse(suite.error());
   if (!suite->has_errors())
@@ -50,15 +50,23 @@ testing::SuiteOptions suite_options(const Request& request) {
 
 } // namespace
 
+tl::expected<testing::Suite, Problem> read_suite(Request& request, structured::Files& files) {
+  return make_suite(request, suite_options(request), files);
+}
+
+Answer results_of(const testing::Results& results, std::string_view text, Request& request) {
+  return fmt::format(R"({{"text":{},"results":{}}})", print(text),
+                     testing::render_json(results, request.said.say()));
+}
+
 Answer test(Request& request) {
-  const auto suite = make_suite(request, suite_options(request));
+  const auto suite = read_suite(request, request.files);
   if (!suite)
     return tl::unexpected(suite.error());
   Unwatched progress;
   const auto results = testing::run_suite(*suite, {}, progress);
-  const auto text = testing::render_text(results, testing::Listing::All, Style{});
-  return fmt::format(R"({{"text":{},"results":{}}})", print(text),
-                     testing::render_json(results, request.said.say()));
+  return results_of(results, testing::render_text(results, testing::Listing::All, Style{}),
+                    request);
 }
 
 Answer replay(Request& request) {
@@ -67,15 +75,15 @@ Answer replay(Request& request) {
   options.only = request.text("test");
   if (const auto program = request.text("program"); !program.empty())
     options.programs = {program};
-  const auto suite = make_suite(request, options);
+  const auto suite = make_suite(request, options, request.files);
   if (!suite)
     return tl::unexpected(suite.error());
   if (suite->groups.empty())
     return refuse(ExitCode::Usage, fmt::format("there is no test `{}`", options.only));
   const auto& group = suite->groups.front();
   const auto& program = suite->programs[group.program];
-  if (!program.problem.empty())
-    return refuse(ExitCode::BadInput, program.problem);
+  if (!program.obstacle().empty())
+    return refuse(ExitCode::BadInput, program.obstacle());
   const auto seed = request.value<std::uint64_t>("seed").value_or(group.seeds.first);
   testing::Footage footage;
   testing::run_case(*suite, group, seed, nullptr, &footage);

@@ -1,7 +1,9 @@
 #include "playground/engine/uploads.h"
 
+#include "base/text/utf8.h"
 #include "playground/engine/log_link.h"
 
+#include "run/began.h"
 #include "run/delivery.h"
 #include "run/lacks.h"
 #include "spec/ble.h"
@@ -9,13 +11,14 @@
 #include "spec/serial.h"
 #include "uploader/ble.h"
 
+#include <fmt/format.h>
 #include <memory>
 #include <utility>
 
 namespace orb::playground {
 namespace {
 
-/// Remembers what was told last.
+/// Remembers the last progress report.
 class Last final : public uploader::Progress {
 public:
   void on_item(std::string_view name) override { item_ = name; }
@@ -55,7 +58,7 @@ ordered_json place_json(spec::BleCharacteristic characteristic) {
           {"characteristic", row.uuid}};
 }
 
-/// How a robot is found and opened to commands.
+/// How to find a robot and open it to commands.
 ordered_json ble_json(const uploader::Budgets& budgets, spec::BleProtocol protocol) {
   const bool is_v1 = protocol == spec::BleProtocol::V1;
   auto services = ordered_json::array();
@@ -73,7 +76,7 @@ ordered_json ble_json(const uploader::Budgets& budgets, spec::BleProtocol protoc
     greeting.push_back(place_json(row.characteristic));
     greeting.back()["bytes"] = bytes_json(as_bytes(row.bytes));
   }
-  auto open = ordered_json::array(); // names of robots that have no such characteristic
+  auto open = ordered_json::array(); // names of robots without such a characteristic
   for (const auto& row : spec::ble_names)
     if (spec::is_open(row.model))
       open.push_back(row.prefix);
@@ -94,7 +97,7 @@ ordered_json ble_json(const uploader::Budgets& budgets, spec::BleProtocol protoc
 
 Answer links(Request&) {
   const uploader::Budgets budgets;
-  auto pauses = ordered_json::array(); // between the tries
+  auto pauses = ordered_json::array(); // between attempts
   for (int n = 1; n < budgets.opens; ++n)
     pauses.push_back(milliseconds(budgets.backoff(n)));
   return print(
@@ -124,6 +127,8 @@ tl::expected<Upload, Problem> Upload::start(Request& request) {
   };
   Upload upload;
   upload.delivery_ = *std::move(delivery);
+  if (const auto* program = run::first_with_program(*inputs); options.run && program != nullptr)
+    upload.lines_ = program->program->lines; // a macro reports nothing when it fails
   upload.battery_ =
       request.flag("force") ? uploader::BatteryPolicy::Ignore : uploader::BatteryPolicy::Refuse;
   if (request.text("link") == "ble")
@@ -142,15 +147,89 @@ std::string Upload::next() {
   LogLink link(log_);
   Last progress;
   uploader::Session session(link, budgets_, first_seq_);
-  const auto report = uploader::deliver(session, delivery_, battery_, progress);
+  auto report = uploader::deliver(session, delivery_, battery_, progress);
+  bool stopped = false;
+  if (lines_ && report.kind == uploader::Report::Kind::Done) {
+    const auto began = run::watch_start(session, *lines_);
+    stopped = began.fault.has_value();
+    report.message = stopped ? began.words : fmt::format("{}; {}", report.message, began.words);
+  }
   if (!link.wish().is_null())
     return print({{"wish", link.wish()}, {"status", progress.json()}});
+  std::string prints;
+  for (const auto& message : session.inbox())
+    if (message.id == static_cast<std::uint8_t>(spec::AsyncId::BasicPrint))
+      prints += as_text(message.data);
+  const auto code = stopped ? ExitCode::BadInput : uploader::exit_code(report.kind);
   return print({{"outcome",
-                 {{"kind", word(report.kind)},
-                  {"code", static_cast<int>(uploader::exit_code(report.kind))},
+                 {{"kind", stopped ? "stopped" : word(report.kind)},
+                  {"code", static_cast<int>(code)},
                   {"message", report.message},
+                  {"prints", from_latin1(prints)},
                   {"packets", session.counts().packets_out},
                   {"ms", milliseconds(link.now().time_since_epoch())}}}});
+}
+
+namespace {
+
+using spec::ApiCommand;
+
+/// Stops programs, macros and the wheels in this order, so that nothing can start driving again.
+constexpr ApiCommand stops[] = {ApiCommand::AbortOrbbasicProgram, ApiCommand::AbortMacro,
+                                ApiCommand::Roll};
+
+Bytes data_of_stop(ApiCommand command) {
+  return command == ApiCommand::Roll ? Bytes(4, 0) : Bytes{};
+}
+
+Bytes start_of(const uploader::Delivery& delivery, std::uint8_t seq) {
+  if (delivery.program) {
+    Bytes data{static_cast<std::uint8_t>(delivery.program->area)};
+    append_u16(data, delivery.program->start_line.value_or(0));
+    return encode(protocol::make_command(ApiCommand::ExecuteOrbbasicProgram, data, seq));
+  }
+  const auto& job = delivery.macros.front().job;
+  const auto id =
+      job.kind == uploader::MacroKind::Temporary ? spec::macro_id_temporary : job.image.id;
+  return encode(protocol::make_command(ApiCommand::RunMacro, {id}, seq));
+}
+
+} // namespace
+
+Answer tell_robot(Request& request) {
+  auto seq = request.value<std::uint8_t>("seq").value_or(0);
+  Bytes packets;
+  if (request.text("what") == "stop") {
+    for (const auto command : stops)
+      encode(protocol::make_command(command, data_of_stop(command), seq++), packets);
+    return print({{"bytes", bytes_json(packets)}});
+  }
+  const auto inputs = request.inputs();
+  if (!inputs)
+    return tl::unexpected(inputs.error());
+  run::DeliveryOptions options;
+  options.area = request.text("area", "ram") == "flash" ? spec::Area::Flash : spec::Area::Ram;
+  options.run = true;
+  const auto delivery = run::arrange(*inputs, options);
+  if (!delivery)
+    return refuse(delivery.error());
+  return print({{"bytes", bytes_json(start_of(*delivery, seq))}});
+}
+
+Answer RobotEar::hear(Request& request) {
+  const auto bytes = bytes_of(request.params.at("bytes"));
+  std::string prints;
+  std::string error;
+  decoder_.feed(bytes);
+  while (const auto item = decoder_.next()) {
+    if (item->kind != protocol::Item::Kind::Async)
+      continue;
+    if (item->code == static_cast<std::uint8_t>(spec::AsyncId::BasicPrint))
+      prints += as_text(item->data);
+    else if (item->code == static_cast<std::uint8_t>(spec::AsyncId::BasicErrorText))
+      error += as_text(item->data);
+  }
+  return print({{"prints", from_latin1(prints)}, {"error", from_latin1(error)}});
 }
 
 } // namespace orb::playground

@@ -1,13 +1,12 @@
-// Runs: in the time of the robot, at once, and what is done to the ball meanwhile.
+// Runs: in the robot's time or at once, and what the user does to the ball meanwhile.
 
 import { $, announce, button, element, with_code } from "./dom.js";
 import { ending_of, program_of } from "./workspace.js";
 
 const silent_ms = 4000; // without a frame
-const frame_ms = 33; // between two pictures of a robot that is driven
-const patience = 400; // milliseconds that a worker has to end a run itself
+const patience = 400; // milliseconds that a worker gets to end a run by itself
 
-/** What `run` and `start` are asked: the files, which of them, and the world around. */
+/** The parameters of `run` and `start`: the files, which of them, and the world. */
 export function request(workspace) {
   const { files, run, active } = workspace;
   const program = program_of(workspace, active);
@@ -23,23 +22,35 @@ const at_rest = {
   words: { basic: {}, structured: {}, macro: {} }, walls: [], pose: { step: 50_000, ...nothing }, led: nothing, backled: nothing,
   line: nothing, variables: [], sensors: [], events: [],
 };
+/** True if something will probably be listed below the ball, which is then placed accordingly from the start. */
+const will_tell = ({ files, names, stimuli, course }) => names.length > 1 || stimuli.length > 0 || !!course || /\bprint\b/i.test(files[names[0]] ?? "");
+
+const near_home = 10; // centimetres
+const a_way = 50; // centimetres; less is a wobble
+/** The summary of a run, and additional remarks. */
+function last_words(story) {
+  const [, x, y, way, unit, more] = /^stopped at (-?\d+),(-?\d+) cm after ([\d.]+) (cm|m)(?:, (.*))?$/.exec(story) ?? [];
+  const is_home = Math.hypot(x, y) <= near_home && way * (unit === "m" ? 100 : 1) >= a_way;
+  return is_home ? [`Home again after ${way} ${unit}`, more] : [story, ""];
+}
 const icons = { run: "M7 4l14 8-14 8z", stop: "M6 6h12v12H6z" };
 
-/** `machine`: the client of a worker that may be ended at any time. */
+/** `machine`: the client of a worker that may be ended at any time. `foreign(name)`: what runs a program that the engine cannot; null for
+ *  those that it can. While one runs, `foreign_run` ends it and does something to its robot. */
 export class Ball {
-  constructor({ machine, player, workspace, on_mistakes, on_place, on_begin, on_busy }) {
-    Object.assign(this, { machine, player, workspace, on_mistakes, on_place, on_begin, on_busy, busy: "", heading: 0 });
+  constructor({ machine, player, workspace, remark, on_mistakes, on_place, on_begin, on_busy, foreign }) {
+    Object.assign(this, { machine, player, workspace, remark, on_mistakes, on_place, on_begin, on_busy, foreign, foreign_run: null, busy: "", heading: 0, wish: () => {} });
     machine.on("frame", frame => this.take_frame(frame));
     machine.on("end", answer => this.end(answer));
     for (const one of $("hands").querySelectorAll("[data-line]")) one.addEventListener("click", () => this.press(one));
     $("number-form").addEventListener("submit", event => this.send(event, $("number"), value => this.machine.call("input", { value: Number(value) })));
-    $("line-form").addEventListener("submit", event => this.send(event, $("line"), line => this.machine.call("stimulus", { line })));
+    $("line-form").addEventListener("submit", event => this.send(event, $("line"), line => (this.foreign_run?.stimulus(line) ?? this.machine.call("stimulus", { line }))));
   }
 
   set_busy(what) {
     this.busy = what;
     const runs = what !== "";
-    // One button for both keeps its focus.
+    // Using one button for both keeps the focus.
     $("run").classList.toggle("stop", runs);
     $("run-words").textContent = runs ? "Stop" : "Run";
     $("run-icon").setAttribute("d", runs ? icons.stop : icons.run);
@@ -50,31 +61,56 @@ export class Ball {
     $("player").classList.toggle("is-live", what === "live");
   }
   say(words, bad = false, more = []) {
-    $("outcome").replaceChildren(...words ? [element("p", {}, with_code(words))] : [], ...more);
+    $("outcome").replaceChildren(...words ? [element("p", { class: more.length ? "main" : undefined }, with_code(words))] : [], ...more);
     $("outcome").className = bad ? "bad" : "";
   }
-  /** Nothing has run yet: the ball rests in the middle. */
+  /** Shows the ball at rest in the middle, before any run. */
   rest() {
     if (this.busy === "robot") this.leash.abort();
     else if (this.busy) {
+      this.foreign_run?.stop();
+      this.foreign_run = null; // it has nothing to say any more
       this.finish();
       this.machine.restart();
     }
     this.player.settle();
+    this.wish([]);
+    this.feel("");
+    this.expect(request(this.workspace()));
     $("played").classList.add("idle");
     this.player.load(structuredClone(at_rest));
+    document.querySelector(".transport").inert = true; // there is nothing to play yet
     this.say("");
   }
-  show(report, goes_on) {
+  /** Before it has run. */
+  expect(asked) {
+    $("played").classList.toggle("tells", will_tell(asked));
+    $("no-events").textContent = "What the ball prints and hits is listed here.";
+  }
+  /**
+   * Sets the ball's mood until something else is shown: "sad", "glad", or neutral; what it says, and its ghosts.
+   */
+  feel(mood, words = "") {
+    $("played").dataset.mood = mood;
+    this.remark(words);
+  }
+  show(report, goes_on, ghosts = []) {
+    this.wish(ghosts); // verdicts.js sets them
+    this.feel("");
     $("played").classList.remove("idle");
+    $("played").classList.toggle("in-course", !!report.course);
+    if (!goes_on) $("no-events").textContent = "Nothing was printed and nothing was hit.";
     this.player.load(report, null, goes_on);
   }
 
-  /** In the time of the robot, until it ends or is stopped. */
+  /** Runs in the robot's time until the program ends or is stopped. */
   async start() {
     const asked = request(this.workspace());
     if (!this.ready(asked)) return;
+    const foreign = this.foreign(asked.names[0]);
+    if (foreign) return foreign(edu => edu.start(asked, true));
     this.set_busy("live");
+    this.expect(asked);
     this.say("running");
     this.on_begin();
     const run = this.run_number = {};
@@ -90,44 +126,7 @@ export class Ball {
       if (this.run_number === run) this.fail(error);
     }
   }
-  /** On a robot: the program runs here, and the robot at the other end of `link` is its body; `do_wish` of link.js uses that. */
-  async drive(link, do_wish) {
-    const asked = request(this.workspace());
-    if (!this.ready(asked)) return;
-    this.set_busy("robot");
-    this.say("getting the robot ready");
-    this.on_begin();
-    const { signal } = this.leash = new AbortController();
-    this.told = "";
-    const begin = performance.now();
-    const now = () => performance.now() - begin;
-    try {
-      let step = await this.machine.call("drive_start", { ...asked, robot: link.name ?? "", for: "0" });
-      while (step.wish) {
-        if (signal.aborted) throw new Error("stopped; the robot was not moved");
-        step = await this.machine.call("drive_step", { at: now(), ...await do_wish(link, step.wish, now) });
-      }
-      this.show(step.report, true);
-      this.say(this.running = `driving the ${step.robot}; Stop brakes it`);
-      this.player.play();
-      let done = {}, shown = 0;
-      while (!step.over) {
-        const frame = now() - shown >= frame_ms;
-        if (frame) shown = now();
-        step = await this.machine.call("drive_step", { at: now(), ...done, stop: signal.aborted, frame });
-        if (step.frame) this.take_frame(step.frame);
-        done = step.write.length ? await do_wish(link, { write: step.write }, now) : {};
-        if (!done.error && !step.over) done = await do_wish(link, { read_until: now() + step.wait_ms }, now);
-      }
-      this.finish();
-      this.conclude(step.over, false);
-      const stop = step.stopped ? "the robot has been stopped" : "the robot has not acknowledged the stop: check that it has stopped";
-      $("outcome").append(element("p", { class: step.stopped ? "hint" : "bad" }, [step.trouble, stop].filter(Boolean).join("; ")));
-    } catch (error) {
-      this.fail(error);
-    }
-  }
-  /** An engine that is silent is named. */
+  /** Reports an engine that stays silent. */
   expect_frame() {
     clearTimeout(this.silence);
     this.silence = setTimeout(() => {
@@ -154,7 +153,7 @@ export class Ball {
     if (!this.told) this.say(waits ? `waiting for ${waits}` : this.running);
     if (waits && $("player").contains(document.activeElement)) $("number").focus();
   }
-  /** All that is known of a fault: what happened where, with which values, and what helps. */
+  /** Shows everything known about a fault: what happened where, with which values, and what helps. */
   tell_fault(fault, words) {
     this.told = fault.message;
     const { file, line, message, seen, variables, finding, help } = fault;
@@ -177,23 +176,27 @@ export class Ball {
     $("number-form").classList.remove("wanted");
     for (const one of $("hands").querySelectorAll("[aria-pressed]")) one.setAttribute("aria-pressed", "false");
   }
-  /** How a run ended, and why where that needs saying. */
+  /** Shows how a run ended, and why if needed. */
   conclude({ ending, hint, report }, plays) {
     if (report) this.show(report, false);
-    const words = [ending?.words, ending?.story, ending?.aborted].filter(Boolean).join("; ");
+    const { words, story, aborted } = ending ?? {}, [last, more] = last_words(story ?? "");
     const [fault] = ending?.faults ?? [];
-    // What it waited for is said with the option of a command line, which here is a button.
-    if (fault) this.tell_fault(fault, words);
-    else this.say(words + (hint ? `. ${hint.split(";")[0]}: press Run and do it by hand, or set it under More` : ""));
+    // The hint names a command-line option, which is a button here.
+    if (fault) this.tell_fault(fault, [words, story, aborted].filter(Boolean).join("; "));
+    else if (hint) this.say(`${[words, story, aborted].filter(Boolean).join("; ")}. ${hint.split(";")[0]}: press Run and do it by hand, or set it under More`);
+    else this.say(last, false, [element("p", { class: "ran" }, with_code([more, words, aborted].filter(Boolean).join("; ")))]);
     if (plays) this.player.play();
     else this.player.seek(this.player.end());
   }
 
-  /** All of it, as fast as it goes. */
+  /** Runs the whole program as fast as possible. */
   async instant() {
     const asked = request(this.workspace());
     if (!this.ready(asked)) return;
+    const foreign = this.foreign(asked.names[0]);
+    if (foreign) return foreign(edu => edu.start({ ...asked, for: this.workspace().run.for }, false));
     this.set_busy("instant");
+    this.expect(asked);
     this.say("running…");
     this.on_begin();
     const run = this.run_number = {};
@@ -210,11 +213,11 @@ export class Ball {
   ready({ names }) {
     if (this.busy) return false;
     if (names[0]) return true;
-    this.say("There is no program yet: create a file that ends in .orb, .bas or .macro.", true);
+    this.say("There is no program yet: create a file that ends in .orb, .bas, .macro or .js.", true);
     return false;
   }
   fail(error) {
-    if (error.code === "stopped") return; // stop() has said so
+    if (error.code === "stopped") return; // stop() has reported it
     this.finish();
     this.player.settle();
     if (error.findings) this.on_mistakes(error.findings);
@@ -223,15 +226,17 @@ export class Ball {
   /** The engine is gone. */
   give_up(reason) {
     if (!this.busy) return;
+    this.foreign_run = null;
     this.finish();
     this.player.settle();
     this.say(`orb's engine has stopped: ${reason}`, true);
   }
 
-  /** At once, whatever the program does. */
+  /** Stops at once, whatever the program does. */
   async stop() {
     if (!this.busy) return;
     if (this.busy === "robot") return this.leash.abort(); // the run ends once it is braked
+    if (this.foreign_run) return this.foreign_run.stop();
     const run = this.run_number;
     if (this.busy === "live") {
       this.machine.call("stop", {}).catch(() => {});
@@ -248,11 +253,11 @@ export class Ball {
     const back = one.dataset.back && one.getAttribute("aria-pressed") === "true";
     if (one.dataset.back) one.setAttribute("aria-pressed", String(!back));
     const line = back ? one.dataset.back : one.dataset.line;
-    // A bump comes from where it drives to.
+    // A bump comes from the direction of travel.
     this.stimulus(line === "bump" ? `push ${Math.round(this.heading + 180) % 360} 255` : line);
   }
   stimulus(line) {
-    return this.machine.call("stimulus", { line }).catch(error => this.say(error.message, true));
+    return (this.foreign_run?.stimulus(line) ?? this.machine.call("stimulus", { line })).catch(error => this.say(error.message, true));
   }
   async send(event, field, deed) {
     event.preventDefault();

@@ -1,16 +1,17 @@
-// How texts are said in another language, by the same files as base/catalogue.h. What the engine says is looked up by what it is
-// made of; a text that the page puts together is found by its key, and the holes by what stands in them.
+// Translates texts, using the same files as base/catalogue.h. Sentences of the engine are looked up by their parts; a
+// text composed by the page is matched against keys with holes.
 
-/** Names and figures, which every language has alike: `heading`, `90 ms`, `red, green, blue`. */
+/** Names and figures, which are the same in every language: `heading`, `90 ms`, `red, green, blue`. */
 const names_and_figures = /^(?:(?:[-\d.]+|\S*,) )*\S+$/;
-/** What may fill a hole behind that character. Between backticks code stays as it is, and what was printed between "";
- *  between “” stands what the catalogue
- *  knows, or what somebody wrote; elsewhere what it knows, or names and figures. */
+/**
+ * What may fill a hole after that character. Between backticks: code, unchanged; between "": printed text; between
+ * “”: a catalogue text or user text; elsewhere: a catalogue text, or names and figures.
+ */
 const quoted = { "`": "([^`]+)", '"': '([^"]+)', "“": "([^“”]+)" };
 const literal = text => text.replace(/[\\^$.*+?()[\]{}|]/g, "\\$&");
 
 function template(english, translation) {
-  const pieces = english.split(/\{(\w+)\}/); // what is fixed, a name, what is fixed …
+  const pieces = english.split(/\{(\w+)\}/); // fixed text, name, fixed text …
   const holes = pieces.flatMap((name, i) => i % 2 ? [{ name, before: pieces[i - 1].at(-1) }] : []);
   const pattern = pieces.map((piece, i) => i % 2 ? quoted[pieces[i - 1].at(-1)] ?? "(.+?)" : literal(piece)).join("");
   return { pattern: new RegExp(`^${pattern}$`, "s"), holes, translation, fixed: english.replace(/\{\w+\}/g, "").length };
@@ -18,8 +19,10 @@ function template(english, translation) {
 
 const fill = (translation, filled) => translation.replace(/\{(\w+)\}/g, (_, name) => filled[name]);
 
-/** `texts`: English keys and their translations, those of findings and those of the page; `made_of`: what sentences of the engine are
- *  made of. The answer says a text in that language, and is undefined where it cannot. */
+/**
+ * `texts`: English keys and translations, of findings and of the page; `made_of`: the parts of the engine's
+ * sentences. The result translates a text, and returns undefined if it cannot.
+ */
 export function make_catalogue({ findings = {}, page = {} }, made_of = new Map()) {
   const whole = new Map(Object.entries({ ...findings, ...page }));
   const templates = Object.entries(page).filter(([english]) => english.includes("{")).map(row => template(...row)).sort((a, b) => b.fixed - a.fixed);

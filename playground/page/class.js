@@ -1,17 +1,18 @@
-// What a teacher and a class need: a lesson is written, a result handed in. Both are addresses, and nothing is stored
-// anywhere.
+// For teachers and classes: writing lessons, handing in results. Both are addresses; nothing is stored on a server.
 
 import { $, button, close_dialogs, copy, download, element, with_code } from "./dom.js";
 import { is_mine, parts_of } from "./task.js";
 import { first_error, kinds, program_of, tests_of } from "./workspace.js";
 
-/** `on_change()`: the task is another now; `write_file(name, text)`, `keep()`; `share(workspace)` shows an address,
- *  `address_of(workspace)` makes one; `mistakes(results, files)` is that of Verdicts. */
-export function set_up_class({ machine, workspace, on_change, write_file, keep, share, address_of, mistakes }) {
+/**
+ * `on_change()`: the task has changed; `write_file(name, text)`, `keep()`; `share(workspace)` shows an address,
+ * `address_of(workspace)` makes one; `judge`, `mistakes` are those of Verdicts.
+ */
+export function set_up_class({ judge, workspace, on_change, write_file, keep, share, address_of, mistakes }) {
   // -- a teacher --
   const dialog = $("lesson-dialog");
-  let now = null; // the workspace that the dialog is about, whatever is opened behind it
-  let tested = ""; // the file that “Am I done?” runs
+  let now = null; // the dialog's workspace, even if another one is opened
+  let tested = ""; // the file run by “Am I done?”
   function show_parts() {
     const program = program_of(now, now.active), tests = tests_of(now);
     tested = tests.find(name => program_of(now, name) === program) ?? tests[0] ?? "";
@@ -25,11 +26,11 @@ export function set_up_class({ machine, workspace, on_change, write_file, keep, 
     $("lesson-test-label").hidden = !tested;
     if (!tested) return;
     if ($("lesson-test").value !== now.files[tested]) $("lesson-test").value = now.files[tested];
-    judge(tests);
+    show_verdict(tests);
   }
   let judging = false;
-  /** Says how the program does. One question at a time: what is typed meanwhile is judged after it. */
-  async function judge(names) {
+  /** Shows how the program does. One request at a time: later input is judged afterwards. */
+  async function show_verdict(names) {
     if (judging) return plan_judgement();
     judging = true;
     const files = structuredClone(now.files), said = await verdict_of(files, names);
@@ -38,8 +39,8 @@ export function set_up_class({ machine, workspace, on_change, write_file, keep, 
   }
   async function verdict_of(files, names) {
     try {
-      const { results } = await machine.call("test", { files, names }), { summary } = results;
-      const findings = await mistakes(results, files);
+      const tested = await judge({ files, names }), { summary } = tested.results;
+      const findings = await mistakes(tested, files);
       if (findings) throw { findings };
       return [summary.passed === summary.tests ? "The program already passes: what is left for pupils to do?" : `The program passes ${summary.passed} of ${summary.tests}.`];
     } catch ({ message, findings }) {
@@ -55,7 +56,7 @@ export function set_up_class({ machine, workspace, on_change, write_file, keep, 
   let typed = 0;
   function plan_judgement() {
     clearTimeout(typed);
-    typed = setTimeout(() => judge(tests_of(now)), 500);
+    typed = setTimeout(() => show_verdict(tests_of(now)), 500);
   }
   $("lesson-test").addEventListener("input", () => {
     write_file(tested, $("lesson-test").value);
@@ -79,7 +80,7 @@ export function set_up_class({ machine, workspace, on_change, write_file, keep, 
     $("lesson-title").focus();
     show_parts();
   }
-  /** Escape, a closed tab: nothing is lost. What is no lesson yet is a draft. */
+  /** Saves on Escape or closing: an incomplete lesson becomes a draft. */
   function keep_draft() {
     now.draft = written().trim() === begun(now).trim() ? "" : written();
     keep();
@@ -94,7 +95,7 @@ export function set_up_class({ machine, workspace, on_change, write_file, keep, 
   });
   dialog.addEventListener("close", () => {
     clearTimeout(typed);
-    if (now !== workspace()) return; // another one was opened, and this one is kept as it was
+    if (now !== workspace()) return; // another one was opened, and this one has been saved
     const made = dialog.returnValue;
     if (!made) {
       keep_draft();
@@ -117,7 +118,7 @@ export function set_up_class({ machine, workspace, on_change, write_file, keep, 
     address = "";
     try {
       const made = await address_of({ ...workspace(), name });
-      if (name !== $("pupil").value.trim()) return; // another one is being made
+      if (name !== $("pupil").value.trim()) return; // a newer request is under way
       $("hand-in-link").value = address = made;
     } catch (error) {
       $("hand-in-link").value = "";

@@ -1,9 +1,11 @@
-// What the modules of the page have in common.
+// Shared by the modules of the page.
 
 export const $ = id => document.getElementById(id);
 
-/** Says an English text in the language of the page. Whatever is shown is said so by itself (translate.js): this is for what
- *  is taken to pieces before. */
+/**
+ * Translates an English text to the page's language. Shown text is translated automatically (translate.js): use
+ * this only for texts that are taken apart first.
+ */
 export let t = text => text;
 export const speak_with = say => { t = say; };
 
@@ -17,7 +19,7 @@ export function element(name, attributes = {}, ...children) {
 }
 export const button = (words, on_click, attributes = {}) => element("button", { type: "button", onclick: on_click, ...attributes }, words);
 
-/** What stands between backticks becomes code; all of it stays text. It is said anew when the page changes its language. */
+/** Turns text between backticks into code elements. It follows changes of the page's language. */
 export function with_code(text) {
   const made = element("span", { "data-said": text });
   fill_said(made);
@@ -26,7 +28,7 @@ export function with_code(text) {
 const fill_said = made => made.replaceChildren(...t(made.dataset.said).split(/`([^`\n]+)`/).map((part, i) => i % 2 ? element("code", {}, part) : part));
 export const say_anew = () => { for (const made of document.querySelectorAll("[data-said]")) fill_said(made); };
 
-/** Says it in the line at the foot of the program, and to screen readers. */
+/** Shows it in the line below the program, and announces it to screen readers. */
 export function say(words, look = "") {
   $("status").textContent = words;
   $("status").className = look;
@@ -34,15 +36,15 @@ export function say(words, look = "") {
 
 export const close_dialogs = () => { for (const open of document.querySelectorAll("dialog[open]")) open.close(); };
 
-/** Copies what a field shows, which is selected from then on. */
+/** Copies the text of a field and selects it. */
 export async function copy(field, text = field.value) {
   field.select();
   try { await navigator.clipboard.writeText(text); } catch { document.execCommand("copy"); }
 }
 
-/** For an import that fails where there is no network. */
+/** For an import that fails without a network. */
 export const not_here = () => { throw new Error("this part of the page is not on this device yet: connect to the network once"); };
-/** What few visits need is loaded when somebody asks for it, once. */
+/** Loads a rarely used part on demand, once. */
 export function on_demand(load) {
   let loaded = null;
   return async deed => {
@@ -57,14 +59,14 @@ export function on_demand(load) {
   };
 }
 
-/** A bar over the page that stays until it is no longer so. */
+/** Shows a bar above the page until the trouble is over. */
 export function show_trouble(id, words) {
   $(id).firstElementChild.textContent = words;
   $(id).hidden = !words;
 }
 
 let announced = 0, unsaid = "";
-/** Says it to screen readers, what comes quickly in one piece. */
+/** Announces words to screen readers; joins quick successions. */
 export function announce(words) {
   unsaid = `${unsaid}${words}`.slice(-300);
   if (announced) return;
@@ -81,8 +83,8 @@ export function download(name, content, type = "text/plain") {
   setTimeout(() => URL.revokeObjectURL(link.href), 10_000);
 }
 
-const allowed = new Set("A B BLOCKQUOTE BR CODE DEL EM H1 H2 H3 H4 HR I LI OL P PRE S STRONG TABLE TBODY TD TH THEAD TR UL".split(" "));
-/** HTML of which only plain text markup is left: no attributes, and no links but to the web and within the page. */
+const allowed = new Set("A B BLOCKQUOTE BR CODE DEL DETAILS EM H1 H2 H3 H4 HR I LI OL P PRE S STRONG SUMMARY TABLE TBODY TD TH THEAD TR UL".split(" "));
+/** Removes everything from HTML but plain markup: no attributes, and only links to the web and within the page. */
 export function harmless(html) {
   const page = new DOMParser().parseFromString(html, "text/html");
   for (const node of [...page.body.querySelectorAll("*")]) {

@@ -1,13 +1,15 @@
-// The engines of the page: one that does not answer is named, and can be tried again.
+// Watches the page's engines: reports one that does not answer, and offers a retry.
 
 import { $, show_trouble } from "./dom.js";
 
-/** `language` checks while somebody types, `machine` runs; `on_machine_gone(words)` is called where the second has ended, with the reason.
- *  Gives `checks()`: whether the first runs, as far as is known. */
+/**
+ * `language` checks while somebody types, `machine` runs; calls `on_machine_gone(words)` with the reason when the
+ * second has ended. Returns `checks()`: true if the first runs, as far as is known.
+ */
 export function watch_engines({ language, machine, on_machine_gone }) {
   const broken = new Set();
   for (const client of [language, machine]) {
-    let lives = 3; // one that has run, and ends, is begun again
+    let lives = 3; // restarts left for one that has run and ended
     let has_run = false;
     client.on("broken", ({ message }) => {
       if (client === machine) on_machine_gone(message);

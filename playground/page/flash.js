@@ -1,12 +1,13 @@
-// A program onto a real ball, where the browser can; else the file for `orb upload`.
+// Sends a program to a real ball if the browser can; otherwise offers the file for `orb upload`.
 
-import { can_serial, can_bluetooth, choose_serial, choose_bluetooth, serial_link, bluetooth_link, deliver, do_wish } from "../link.js";
+import { can_serial, can_bluetooth, choose_serial, choose_bluetooth, serial_link, bluetooth_link, deliver } from "../link.js";
 import { $, download } from "./dom.js";
 import { request } from "./ball.js";
+import { drive as drive_robot } from "./drive.js";
 import { robot_list } from "./robots.js";
 import { ending_of } from "./workspace.js";
 
-/** What `promise` brings; when `signal` says so, an error at once, and what comes later is given to `undo`. */
+/** Waits for `promise`; fails at once when `signal` aborts, and passes a late result to `undo`. */
 function unless(signal, promise, undo) {
   const stop = new Promise((_, failed) => signal.addEventListener("abort", () => {
     failed(new Error("interrupted; nothing was sent"));
@@ -17,7 +18,7 @@ function unless(signal, promise, undo) {
 
 export function set_up_flash({ machine, workspace, ball, on_mistakes }) {
   let running = null;
-  let held = null; // the link to a robot that has taken the program: { link, asked, over }
+  let held = null; // the link to a robot that has the program: { link, asked, over }
   const ways = {
     serial: { choose: choose_serial, open: port => serial_link(machine, port) },
     bluetooth: { choose: () => choose_bluetooth(machine), open: device => bluetooth_link(machine, device) },
@@ -25,15 +26,20 @@ export function set_up_flash({ machine, workspace, ball, on_mistakes }) {
   const robots = robot_list((way, device) => write(way, device));
   let way_of_last = null;
 
+  const is_foreign = name => ending_of(name ?? "") === "js";
+  /** What can be done with the program here. */
+  function offer() {
+    const [name] = request(workspace()).names, is_kept = name && !is_foreign(name);
+    $("flash-serial").disabled = !can_serial() || !is_kept;
+    $("flash-bluetooth").disabled = !can_bluetooth() || !is_kept;
+    $("flash-file").disabled = $("flash-options").disabled = !is_kept;
+    $("drive-serial").disabled = !can_serial() || !name;
+    $("drive-bluetooth").disabled = !can_bluetooth() || !name;
+  }
   async function open() {
-    const { names } = request(workspace());
-    const serial = can_serial(), bluetooth = can_bluetooth();
-    $("flash-what").textContent = names[0] ? `Writes ${names.join(" and ")} to a robot that is awake and nearby.` : "There is no program to send yet.";
-    $("flash-serial").disabled = !serial || !names[0];
-    $("flash-bluetooth").disabled = !bluetooth || !names[0];
-    $("flash-file").disabled = !names[0];
-    $("drive-serial").disabled = !serial || !names[0];
-    $("drive-bluetooth").disabled = !bluetooth || !names[0];
+    const { names } = request(workspace()), serial = can_serial(), bluetooth = can_bluetooth();
+    offer();
+    $("flash-what").textContent = is_foreign(names[0]) ? "No robot can keep a JavaScript program; it runs here and drives the robot." : names[0] ? `Writes ${names.join(" and ")} to a robot that is awake and nearby.` : "There is no program to send yet.";
     $("flash-lacks").textContent = !serial && !bluetooth ? "This browser cannot reach robots. Chrome and Edge can; or save the file and write it with `orb upload`."
       : !serial ? "This browser does not support serial ports: classic balls need Chrome or Edge on a computer, or the saved file and `orb upload`."
       : !bluetooth ? "This browser does not support Bluetooth LE." : "";
@@ -43,7 +49,7 @@ export function set_up_flash({ machine, workspace, ball, on_mistakes }) {
     }
     if (!$("flash-dialog").open) $("flash-dialog").showModal();
     if (!bluetooth || !names[0]) return;
-    // A browser that knows it may be on a device that has none, or whose radio is off.
+    // The browser supports Bluetooth, but the device may have none, or its radio may be off.
     const there = await navigator.bluetooth.getAvailability?.().catch(() => true) ?? true;
     if (there || running) return;
     $("flash-bluetooth").disabled = $("drive-bluetooth").disabled = true;
@@ -58,11 +64,11 @@ export function set_up_flash({ machine, workspace, ball, on_mistakes }) {
     for (const id of ["drive-serial", "drive-bluetooth", "flash-serial", "flash-bluetooth", "flash-file", "flash-close", "flash-options", "flash-next"]) $(id).disabled = !!controller;
     $("robots").inert = !!controller;
     $("flash-cancel").hidden = !controller;
-    if (!controller) return;
+    if (!controller) return offer();
     $("flash-progress").hidden = false;
     $("flash-progress").value = 0;
   }
-  /** To a robot that the person chooses, or once more to `device`. */
+  /** Writes to a robot that the person chooses, or again to `device`. */
   async function write(way, device) {
     const { files, names } = request(workspace());
     const controller = new AbortController();
@@ -89,10 +95,10 @@ export function set_up_flash({ machine, workspace, ball, on_mistakes }) {
           tell("busy", words || stage || "", `${Math.round(100 * part)} %`);
         },
       });
-      stays = outcome.kind === "done";
+      stays = outcome.kind === "done" || outcome.kind === "stopped";
       if (stays) $("flash-progress").value = 1;
-      tell(stays ? "done" : "failed", outcome.message || outcome.kind);
-      if (stays) hold(link, { files, names, area });
+      tell(outcome.kind === "done" ? "done" : "failed", outcome.message || outcome.kind);
+      if (stays) hold(link, { files, names, area }, outcome.prints);
     } catch (error) {
       if (error.findings) {
         on_mistakes(error.findings);
@@ -109,7 +115,7 @@ export function set_up_flash({ machine, workspace, ball, on_mistakes }) {
       if (way_of_last && document.activeElement === document.body) $("flash-next").focus();
     }
   }
-  /** The program runs here and drives the robot: the dialog makes room for the map. */
+  /** Runs the program here to drive the robot: the dialog gives way to the map. */
   async function drive(open_link) {
     const controller = new AbortController();
     let link = null;
@@ -122,7 +128,7 @@ export function set_up_flash({ machine, workspace, ball, on_mistakes }) {
       say("");
       set_running(null);
       $("flash-dialog").close();
-      await ball.drive(link, do_wish);
+      await drive_robot(ball, link);
     } catch (error) {
       say(error.name === "NotFoundError" ? "No robot was chosen." : error.message, error.name !== "NotFoundError");
     } finally {
@@ -130,18 +136,21 @@ export function set_up_flash({ machine, workspace, ball, on_mistakes }) {
       set_running(null);
     }
   }
-  // -- a robot that has taken the program: it is started and stopped here, and what it prints is shown --
-  async function hold(link, asked) {
+  // -- a robot that has the program: start and stop it here, show its output --
+  async function hold(link, asked, prints) {
     const mine = held = { link, asked, seq: 0, over: false };
     $("robot").hidden = false;
-    $("robot-prints").textContent = "";
+    $("robot-prints").textContent = prints;
     try {
       while (!mine.over) {
         const bytes = await link.read(250);
         if (!bytes.length) continue;
         const { prints, error } = await machine.call("hear_robot", { bytes });
         $("robot-prints").append(prints + error);
-        if (error && !mine.stopped) say(`The program stopped: ${error.trim()}.`, true);
+        if (error && !mine.stopped) {
+          await tell("stop"); // the wheels go on
+          say(`The program stopped: ${error.trim()}.`, true);
+        }
         $("robot-prints").scrollTop = $("robot-prints").scrollHeight;
       }
     } catch (error) {

@@ -1,4 +1,4 @@
-// Which language the page is in: the one that somebody chose, else the first of the browser's that there is.
+// The page's language: the chosen one, or else the first of the browser's that is available.
 
 import { $, element, say } from "./dom.js";
 
@@ -16,8 +16,10 @@ async function texts_of(code) {
 }
 
 let asked = 0;
-/** Says the page in that language, unless another is asked for meanwhile; where its texts cannot be loaded, it stays as it
- *  is. */
+/**
+ * Translates the page, unless another language is requested meanwhile; keeps the current one if the texts cannot be
+ * loaded.
+ */
 async function show_in(code) {
   const question = ++asked;
   try {
@@ -30,7 +32,7 @@ async function show_in(code) {
   }
 }
 
-/** Settles when the page is in that language. `on_change()`: somebody has chosen another. */
+/** Settles when the page is translated. `on_change()`: somebody has chosen another language. */
 export async function speak({ on_change }) {
   const code = wanted();
   $("language").append(...Object.entries(languages).map(([one, name]) => element("option", { value: one, lang: one, selected: one === code }, name)));

@@ -1,27 +1,45 @@
-// The examples and lessons that the build put beside the page.
+// Examples and lessons: the cards of all, and the content of one, loaded when it is opened.
 
-import { $, element, button, harmless, t } from "./dom.js";
-import { markdown } from "./markdown.js";
+import { $, element, button, say } from "./dom.js";
+import { said, show_text } from "./task.js";
 
 let groups = null;
 export async function load_library() {
   groups ??= (await (await fetch("examples.json")).json()).groups;
   return groups;
 }
-const lessons = () => (groups ?? []).flatMap(group => group.items).filter(item => item.readme);
+export const not_loaded = "The lessons and examples could not be loaded. Check your network connection and reload the page.";
+const whole = new Map(); // by id
+/** Loads an item with everything it opens with. */
+export async function load_item(item) {
+  if (!whole.has(item.id)) whole.set(item.id, { ...item, ...await (await fetch(`examples/${item.id}.json`)).json() });
+  return whole.get(item.id);
+}
+const lessons = () => (groups ?? []).flatMap(group => group.items).filter(item => item.job && item.language === "orb");
 
-/** The lesson that comes after the one called `id`; undefined behind the last. */
+export async function first_lesson() {
+  await load_library();
+  return lessons()[0];
+}
+
+/** The lesson after `id`; undefined after the last one. */
 export function lesson_after(id) {
   const all = lessons(), at = all.findIndex(lesson => lesson.id === id);
   return at < 0 ? undefined : all[at + 1];
 }
 
-export function as_workspace({ id, files, main, run, readme }) {
+export function as_workspace({ id, files, main, run, readme, task }) {
   const { [main]: program, ...others } = files; // the program's tab comes first
-  return { files: { [main]: program, ...others }, active: main, main, run: run ?? {}, lesson: readme ? id : "" };
+  return { files: { [main]: program, ...others }, active: main, main, run: run ?? {}, lesson: readme ? id : "", task };
 }
 
-/** A dialog in which `on_pick(item)` is asked for one. */
+/** The item that an address means: by id, by program, or by another of its files. */
+export async function item_named(id) {
+  const all = (await load_library()).flatMap(group => group.items);
+  return all.find(one => one.id === id) ?? all.find(one => one.main === id) ?? all.find(one => one.names.includes(id));
+}
+
+/** Shows a dialog that calls `on_pick(item)`. */
 export async function show_library(on_pick) {
   const list = $("library-list"), dialog = $("library");
   dialog.showModal();
@@ -55,13 +73,13 @@ export async function show_library(on_pick) {
 }
 const languages = { orb: "orb", bas: "orbBasic", macro: "a macro" };
 const order = Object.keys(languages);
-/** The same program in a language that comes first. */
-const is_better = (one, other) => stem(one.id) === stem(other.id) && !one.readme && order.indexOf(one.language) < order.indexOf(other.language);
+/** The same program in a preferred language. */
+const is_better = (one, other) => stem(one.id) === stem(other.id) && !one.job && order.indexOf(one.language) < order.indexOf(other.language);
 const stem = id => id.replace(/\.\w+$/, "");
 function card(item, on_click, done) {
-  const is_done = item.readme && done.has(item.id);
+  const is_done = item.job && done.has(item.id);
   const made = button("", on_click, { "data-id": item.id });
-  made.append(picture(item), element("b", {}, item.title), element("span", {}, item.summary || first_words(item.readme) || ""));
+  made.append(picture(item), element("b", {}, item.title), element("span", {}, item.summary || first_words(item.job) || ""));
   if (is_done) made.append(element("i", { class: "done" }, "done"));
   return made;
 }
@@ -71,15 +89,13 @@ const svg = (name, attributes, ...children) => {
   made.append(...children);
   return made;
 };
-/** What the ball drives in it; where it stays, the ball in the last of its colours. */
+/** The ball's path in it; if it stays, the ball in its last colour. */
 function picture({ path = [], color = "" }) {
   const lines = path.map(([stroke, d]) => svg("path", { d, ...stroke ? { stroke } : { class: "unlit" } }));
   const ball = lines.length ? [] : [svg("circle", { class: "mark-ball", cx: 60, cy: 36, r: 20 }), svg("circle", { cx: 60, cy: 36, r: 20, fill: color || "none", "fill-opacity": .75 })];
   return svg("svg", { viewBox: "0 0 120 72", class: "drawn", "aria-hidden": "true" }, ...lines, ...ball);
 }
-/** Each paragraph of a task in the language of the page. */
-const said = text => text.trim().split("\n\n").map(block => t(block)).join("\n\n");
-/** The job: the first paragraph that says something behind a bold word. */
+/** The job: what is said behind a bold word. */
 const first_words = text => /^\*\*[^*]+:\*\*\s+([^]+?)$/m.exec(said(text ?? ""))?.[1].replace(/[*`]/g, "");
 
 // ---- lessons ----
@@ -90,14 +106,21 @@ function kept_done() {
 export function mark_done(id) {
   try { localStorage.setItem(done_key, JSON.stringify([...kept_done().add(id)])); } catch { /* no storage */ }
 }
+/** All lessons, and the one called `id` with its task; nothing for other ids. */
+async function lesson_called(id) {
+  await load_library();
+  const all = lessons(), at = all.findIndex(lesson => lesson.id === id);
+  return { all, at, lesson: all[at] && await load_item(all[at]) };
+}
 let asked = "";
-/** Shows the task of a lesson, or hides it where `id` is none. */
+/** Shows the task of a lesson; hides it if `id` is not a lesson. */
 export async function show_task(id, { on_pick, on_solution }, stays = false) {
   asked = id;
   if (!id) { $("task").hidden = true; return; }
-  await load_library().catch(() => {});
+  const found = await lesson_called(id).catch(() => null);
   if (asked !== id) return; // something else was opened meanwhile
-  const all = lessons(), at = all.findIndex(lesson => lesson.id === id), lesson = all[at];
+  if (!found) say(not_loaded, "bad");
+  const { all, at, lesson } = found ?? {};
   $("task").hidden = !lesson;
   if (!lesson) return;
   const [, title, rest] = /^#\s*([^\n]*)\n([^]*)$/.exec(said(lesson.readme)) ?? [, lesson.title, lesson.readme];
@@ -105,10 +128,9 @@ export async function show_task(id, { on_pick, on_solution }, stays = false) {
   const done = kept_done();
   $("dots").replaceChildren(...all.map((one, i) => button("", () => on_pick(one), {
     "aria-label": `Lesson ${i + 1}, ${one.title}${done.has(one.id) ? ", done" : ""}`, title: one.title,
-    class: done.has(one.id) ? "done" : undefined, "aria-current": one === lesson ? "step" : undefined })));
+    class: done.has(one.id) ? "done" : undefined, "aria-current": i === at ? "step" : undefined })));
   if (stays) return;
-  $("task-text").innerHTML = harmless(markdown(rest));
-  $("task-text").scrollTop = 0;
+  show_text(rest);
   for (const [id, other] of [["lesson-before", all[at - 1]], ["lesson-next", all[at + 1]]]) {
     $(id).disabled = !other;
     $(id).onclick = () => on_pick(other);

@@ -1,10 +1,9 @@
-// The programs that somebody has in this browser, each with what it was before.
+// The programs saved in this browser, each with its versions.
 
 import { $, element, button } from "./dom.js";
-import { new_id } from "./store.js";
 import { checked } from "./workspace.js";
 
-/** As the browser writes dates in the language of the page; to the second, so that no two versions are called alike. */
+/** A date in the page's language, to the second, so that versions have distinct labels. */
 function when(date) {
   const { lang } = document.documentElement, own = navigator.languages.filter(tag => tag.startsWith(lang));
   return new Intl.DateTimeFormat(own.length ? own : lang, { dateStyle: "medium", timeStyle: "medium" }).format(date);
@@ -17,7 +16,7 @@ export function set_up_mine({ store, workspace, on_open, begin }) {
     $("mine-dialog").close();
     if (found) on_open({ ...found, document: id, title, before: "" }, words);
   };
-  /** The earlier states of a document, looked up when somebody asks for them. */
+  /** The versions of a document, loaded on demand. */
   function earlier(id, title) {
     const list = element("ol");
     const fold = element("details", {}, element("summary", {}, "Earlier versions"), list);
@@ -38,7 +37,7 @@ export function set_up_mine({ store, workspace, on_open, begin }) {
   }
   $("mine-new").addEventListener("click", () => {
     $("mine-dialog").close();
-    on_open({ ...begin(), document: new_id() }, "A new program.");
+    on_open(begin(), "A new program.");
   });
   return {
     async show() {

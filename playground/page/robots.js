@@ -1,17 +1,17 @@
-// The robots that the program was sent to, one after the other: a class hands them round.
+// The robots that the program was sent to, one after the other, as in a class.
 
 import { $, button, element } from "./dom.js";
 
 const signs = { __proto__: null, busy: "…", done: "✓", failed: "✗" };
 
-/** The list under the buttons. `on_again(way, device)`: once more to that one. */
+/** The list below the buttons. `on_again(way, device)` sends to one again. */
 export function robot_list(on_again) {
   const rows = [];
-  /** The row of a robot. A port has no name, so it gets a number. */
+  /** The row of a robot. A port has no name and gets a number. */
   function row_of(way, device) {
     let row = rows.find(one => one.device === device || (device.id && one.device.id === device.id));
     if (row) {
-      row.device = device; // it may have been chosen anew
+      row.device = device; // it may have been selected again
       return row;
     }
     const sign = element("span", { class: "sign", "aria-hidden": "true" }), words = element("span", { class: "words" });
@@ -24,7 +24,7 @@ export function robot_list(on_again) {
       words.textContent = said;
       again.hidden = state === "busy";
     } });
-    $("robots").prepend(item); // the last one stays in sight
+    $("robots").prepend(item); // keeps the latest one visible
     $("robots").hidden = false;
     return row;
   }

@@ -1,7 +1,7 @@
-// What the engine's sentences are made of (playground/engine/said.h): it says them in English.
+// The parts of the engine's sentences (playground/engine/sentence_log.h), which are in English.
 
-const most = 2000; // a run may say a new one at each step
-/** By the whole sentence: `[TEXT, FILLER…]`, where a filler is such a list, or words as they are. */
+const most = 2000; // a run may produce a new one at each step
+/** By whole sentence: `[TEXT, FILLER…]`, where a filler is such a list or plain words. */
 export const made_of = new Map();
 export function learn(said) {
   for (const [sentence, parts] of Object.entries(said)) {

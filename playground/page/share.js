@@ -1,4 +1,4 @@
-// The address that holds a program, to be copied, or taken by a telephone's camera.
+// The address that contains a program, to copy or to scan with a phone.
 
 import { $, copy, on_demand, say } from "./dom.js";
 import { AddressError, to_fragment } from "./workspace.js";
@@ -6,15 +6,15 @@ import { AddressError, to_fragment } from "./workspace.js";
 export const address_of = async what => `${location.origin === "null" ? "file://" : location.origin}${location.pathname}#${await to_fragment(what)}`;
 const with_codes = on_demand(() => import("uqr"));
 
-/** The address as a picture, where it is short enough for one. */
+/** The address as a QR code, if it is short enough. */
 function show_code(link) {
-  const most = 2331; // bytes in the largest code with its damage repaired to a seventh
+  const most = 2331; // bytes in the largest code with error correction for a seventh
   $("share-code").hidden = link.length > most;
   $("share-lacks").textContent = link.length > most ? "The program is too long for a QR code, but it is in the address." : "";
   if (link.length <= most) with_codes(({ renderSVG }) => { $("share-code").innerHTML = renderSVG(link, { ecc: "M", border: 2 }); });
 }
 
-/** Gives what shows the address of the workspace. */
+/** Returns a function that shows the address of the workspace. */
 export function set_up_share({ workspace }) {
   async function share() {
     try {

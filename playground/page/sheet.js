@@ -1,4 +1,4 @@
-// What is printed: the task, the program, the path, and a line for the name.
+// The printed sheet: the task, the program, the path, and a line for the name.
 
 import { $ } from "./dom.js";
 import { program_of } from "./workspace.js";

@@ -1,9 +1,9 @@
-// What somebody wrote: every program that was opened has a place of its own in this browser, with what it was before.
+// Saved work: each opened program has a place in this browser, with its earlier versions.
 
 import { openDB } from "idb";
 import { checked } from "./workspace.js";
 
-/** How many earlier states of a document are kept. */
+/** How many versions of a document to keep. */
 export const most_versions = 50;
 
 const content = one => JSON.stringify([one?.files, one?.main, one?.run, one?.task ?? ""]);
@@ -13,7 +13,7 @@ const is_full = error => error?.name === "QuotaExceededError";
 export class Store {
   #db = null;
 
-  /** `on_trouble(words)` is told, once, why nothing can be kept. */
+  /** Calls `on_trouble(words)` once if nothing can be saved. */
   constructor(on_trouble) {
     let told = false;
     this.trouble = error => {
@@ -33,7 +33,7 @@ export class Store {
     });
     return this.#db;
   }
-  /** What `deed(db)` brings; nothing, and trouble is told, where the browser keeps nothing. */
+  /** Returns the result of `deed(db)`; nothing, after reporting it, if the browser cannot store data. */
   async #within(deed) {
     try {
       return await deed(await this.#open());
@@ -43,8 +43,10 @@ export class Store {
     }
   }
 
-  /** Keeps a workspace as the document that it says it is. Before something else is put in its place, and wherever
-   *  `mark` says so, what it was becomes a version of its own. */
+  /**
+   * Saves a workspace under its document id. Before it is replaced by something else, and if `mark` is set, the
+   * previous state becomes a version.
+   */
   keep(workspace, mark = false) {
     const { document: id, title } = workspace, copy = structuredClone(workspace);
     if (!id) return Promise.resolve();
@@ -71,29 +73,29 @@ export class Store {
     }
     await transaction.done;
   }
-  /** The older half of the versions goes. */
+  /** Deletes the older half of the versions. */
   async #make_room(db) {
     const keys = await db.getAllKeys("versions");
     for (const key of keys.slice(0, Math.ceil(keys.length / 2))) await db.delete("versions", key);
     return keys.length > 0;
   }
 
-  /** The workspace that a document was left with; null where there is none. */
+  /** The saved workspace of a document; null if there is none. */
   async find(id) {
     const row = await this.#within(db => db.get("documents", id));
     const found = row && checked(row.workspace);
     return found ? { ...found, document: id, title: row.title } : null;
   }
-  /** All documents, the last changed first: id, title, when it was changed. */
+  /** All documents, most recently changed first: id, title, time of change. */
   async list() {
     const rows = await this.#within(db => db.getAll("documents")) ?? [];
     return rows.sort((a, b) => b.changed - a.changed).map(({ id, title, changed, workspace }) => ({ id, title, changed, workspace }));
   }
-  /** What a document was, the newest first. */
+  /** The versions of a document, newest first. */
   async versions(id) {
     return (await this.#within(db => db.getAllFromIndex("versions", "document", id)) ?? []).reverse();
   }
 }
 
-/** A name for a document that nothing else has. */
+/** A new unique name for a document. */
 export const new_id = () => `own:${crypto.randomUUID?.() ?? `${Date.now()}-${Math.random()}`}`;

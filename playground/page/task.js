@@ -1,15 +1,15 @@
-// The task of a lesson that somebody wrote: how it is kept in a workspace, and shown.
+// The task of a user's lesson: how a workspace stores it, and how it is shown.
 
-import { $, harmless } from "./dom.js";
+import { $, harmless, t } from "./dom.js";
 import { markdown } from "./markdown.js";
 import { tests_of } from "./workspace.js";
 
-/** The title and the text of a task: `# Title`, then Markdown. */
+/** Splits a task into title and text: `# Title`, then Markdown. */
 export function parts_of(task) {
   const [, title, text] = /^#\s+([^\n]*)\n*([^]*)$/.exec(task) ?? [, "", task];
   return { title: title.trim(), text: text.trim() };
 }
-/** A document of its own for each lesson that is opened, the same whenever it is opened again. */
+/** The document id of an opened lesson, the same each time it is opened. */
 export function id_of(fragment) {
   let a = 0x811c9dc5, b = 0x1000193;
   for (const char of fragment) {
@@ -18,19 +18,35 @@ export function id_of(fragment) {
   }
   return `task:${(a >>> 0).toString(36)}${(b >>> 0).toString(36)}`;
 }
-/** Whether it was made here, and not opened from an address of somebody else. */
+/** True if it was made here, not opened from somebody else's address. */
 export const is_mine = ({ document }) => document.startsWith("own:");
+
+/**
+ * Shows a task. The job stays visible above the rest, which scrolls. It is the first paragraph after `**Your
+ * job:**`, or its translation, plus the list below it if the paragraph leads to one.
+ */
+export function show_text(text) {
+  const rest = $("task-text"), is_job = ({ firstChild }) => firstChild?.nodeName === "STRONG" && /:\s*$/.test(firstChild.textContent);
+  rest.innerHTML = harmless(markdown(text));
+  rest.scrollTop = 0;
+  const job = [...rest.children].find(is_job);
+  const leads_on = job && /:\s*$/.test(job.textContent) && job.nextElementSibling;
+  $("task-job").hidden = !job;
+  $("task-job").replaceChildren(...[job, leads_on].filter(Boolean));
+}
+
+/** Each paragraph of a text in the language of the page. */
+export const said = text => text.trim().split("\n\n").map(block => t(block)).join("\n\n");
 
 /** Shows the task of a lesson that is none of the page's own. */
 export function show_own_task({ task }) {
   const { title, text } = parts_of(task);
   $("task").hidden = false;
   $("task-title").textContent = title || "Task";
-  $("task-text").innerHTML = harmless(markdown(text));
-  $("task-text").scrollTop = 0;
+  show_text(said(text));
   $("dots").replaceChildren();
 }
-/** The buttons beside a task, and those that make a lesson: what somebody has handed in is there to be looked at. */
+/** Shows the buttons for tasks and for making lessons; work that was handed in is only looked at. */
 export function show_class_buttons(workspace) {
   const own = !!workspace.task && !workspace.lesson;
   for (const id of ["lesson-before", "lesson-next", "solution"]) $(id).classList.toggle("gone", own);
@@ -39,5 +55,5 @@ export function show_class_buttons(workspace) {
   $("hand-in").hidden = !(workspace.lesson || own) || !!workspace.name || !tests_of(workspace).length;
 }
 
-/** The addresses in a file of them. */
+/** The addresses in a text. */
 export const addresses_in = text => text.match(/#p=[\w-]+/g) ?? [];

@@ -1,21 +1,21 @@
-// The page in another language, loaded by those who read one. The code of the page says everything in English; whatever
-// comes to stand on the page is said anew here, before anybody sees it, and remembered in English for the next language.
+// Translates the page; loaded for languages other than English. The page's code writes English. This observes the page,
+// replaces each text before it is painted, and remembers the English for the next language.
 
 import { make_catalogue } from "./catalogue.js";
 import { say_anew, speak_with } from "./dom.js";
 import { made_of } from "./said.js";
 
 const attributes = ["title", "aria-label", "placeholder", "alt"];
-/** What somebody wrote or a program said; and blocks, which are made in the language. */
+/** Not translated: what users or programs wrote; and blocks, which are made in the page's language. */
 const kept = ".cm-content, .cm-gutters, pre, code, kbd, textarea, script, style, #tabs, #announce, #events .print .words, #variables th, [class*=blockly], [translate=no]";
 const has_words = /\p{L}{2}/u;
 
 let find = () => undefined;
-/** Blanks around it stay. */
+/** Keeps surrounding blanks. */
 const said = text => text.replace(/\S[^]*\S/, words => find(words) ?? words);
 
-const written = new WeakMap(); // of a node: by the name of an attribute, "" for its text, what it says and what that was in English
-/** What stands there now in the language of the page; undefined where that is so already. */
+const written = new WeakMap(); // for each node, by attribute name ("" for its text): the shown text and its English original
+/** The translation of what is shown; undefined if it is translated already. */
 function translated(node, name, text) {
   const all = written.get(node) ?? {}, english = all[name]?.shown === text ? all[name].english : text, shown = said(english);
   written.set(node, { ...all, [name]: { english, shown } });
@@ -47,7 +47,7 @@ const observer = new MutationObserver(records => {
     else for (const node of addedNodes) all_of(node);
 });
 
-/** Says the page in that language from now on. `texts`: English ones and their translations; none for English. */
+/** Switches the page to a language. `texts`: English texts and translations; empty for English. */
 export function translate(code, texts) {
   find = make_catalogue(texts, made_of);
   speak_with(text => find(text) ?? text);

@@ -1,5 +1,5 @@
-// What the editor does while somebody types: it closes brackets, moves lines in, and offers words. What opens and closes
-// is in the language configurations that VS Code reads, too.
+// The editor's behaviour while typing: closes brackets, indents lines, offers words. The rules for blocks come from the
+// language configurations that VS Code also reads.
 
 import { autocompletion, closeBrackets, closeBracketsKeymap } from "@codemirror/autocomplete";
 import { serverCompletionSource } from "@codemirror/lsp-client";
@@ -16,21 +16,20 @@ const step = "  ";
 
 const pattern_of = ({ pattern, flags }) => new RegExp(pattern, flags);
 /** Which lines of a language begin a block (`more`), and which end or divide one (`less`); null where there are no blocks. */
-function blocks_of(ending) {
-  const rules = configurations[ending]?.indentationRules;
+function blocks_of({ indentationRules: rules }) {
   return rules ? { more: pattern_of(rules.increaseIndentPattern), less: pattern_of(rules.decreaseIndentPattern) } : null;
 }
 
 const blanks_before = text => /^\s*/.exec(text)[0];
-/** The blanks before the line `here`. `above`: the lines above it, the nearest first. */
+/** The indentation of the line `here`. `above`: the lines above it, nearest first. */
 function indentation(here, above, { more, less }) {
   if (less.test(here)) {
-    let inner = 0; // blocks that end between this line and where its own begins
+    let inner = 0; // blocks that end between this line and the start of its own
     for (const line of above) {
       const opens = more.test(line), closes = less.test(line);
       if (closes && !opens) ++inner;
       else if (opens && !closes && --inner < 0)
-        // What divides a `select` stands within it.
+        // The parts of a `select` are indented within it.
         return blanks_before(line) + (more.test(here) && /^\s*select\b/i.test(line) ? step : "");
     }
     return "";
@@ -39,11 +38,13 @@ function indentation(here, above, { more, less }) {
   return "";
 }
 
-/** The lines above one, the nearest first. */
+/** The lines above a line, nearest first. */
 function* lines_above(doc, number) {
   while (--number > 0) yield doc.line(number).text;
 }
-/** Moves a line back that ends a block or divides one, and in again when it turns out to be another: `next`, `nextval`. */
+/**
+ * Moves a line back when it ends or divides a block, and in again when it becomes another word: `next`, `nextval`.
+ */
 const follow_block = blocks => EditorState.transactionFilter.of(typed => {
   if (!typed.isUserEvent("input.type") && !typed.isUserEvent("input.complete")) return typed;
   const doc = typed.newDoc, { head } = typed.newSelection.main, line = doc.lineAt(head), own = blanks_before(line.text);
@@ -51,11 +52,11 @@ const follow_block = blocks => EditorState.transactionFilter.of(typed => {
   const wanted = indentation(line.text, lines_above(doc, line.number), blocks);
   const inner = indentation("", lines_above(doc, line.number), blocks);
   const before = indentation(line.text.slice(0, -1), lines_above(doc, line.number), blocks);
-  // What somebody has moved by hand stays there.
+  // Keep manual indentation.
   if (own === wanted || own !== inner && own !== before) return typed;
   return [typed, { changes: { from: line.from, to: line.from + own.length, insert: wanted }, sequential: true }];
 });
-/** A new line, moved in as its block is. */
+/** Inserts a new line with the indentation of its block. */
 const new_line = blocks => ({ state, dispatch }) => {
   const { main, ranges } = state.selection;
   if (ranges.length > 1 || !main.empty) return false;
@@ -68,7 +69,7 @@ const new_line = blocks => ({ state, dispatch }) => {
 };
 
 /** Offers words that begin like the one being typed: none behind a blank, and none for a word that is complete. */
-async function offers(context) {
+async function server_offers(context) {
   const typed = context.matchBefore(/[A-Za-z_]\w*/);
   if (!typed && !context.explicit) return null;
   const found = await serverCompletionSource(context);
@@ -78,14 +79,14 @@ async function offers(context) {
   return { ...found, validFor: word => /^\w*$/.test(word) && !is_complete(word) };
 }
 
-/** For a file of that kind. */
-export function typing(ending) {
-  const { autoClosingPairs = [], comments } = configurations[ending] ?? {}, blocks = blocks_of(ending);
+/** For a file of that kind; `offers` are the words to choose from. */
+export function typing(ending, { configuration = configurations[ending] ?? {}, offers = server_offers } = {}) {
+  const { autoClosingPairs = [], comments } = configuration, blocks = blocks_of(configuration);
   const data = [{ closeBrackets: { brackets: autoClosingPairs.map(({ open }) => open) }, ...comments ? { commentTokens: { line: comments.lineComment } } : {} }];
   return [
     EditorState.languageData.of(() => data),
     closeBrackets(), keymap.of(closeBracketsKeymap),
-    // Enter is a new line unless somebody has chosen a word with an arrow key.
+    // Enter inserts a new line unless somebody selected a word with an arrow key.
     autocompletion({ override: [offers], selectOnOpen: false, filterStrict: true }),
     ...blocks ? [follow_block(blocks), keymap.of([{ key: "Enter", run: new_line(blocks), shift: new_line(blocks) }])] : [],
   ];

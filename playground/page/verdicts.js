@@ -1,13 +1,19 @@
-// Tests: their verdicts, and what failed played back.
+// Verdicts of tests, and the ball's reactions.
 
 import { $, element, button } from "./dom.js";
-import { same_files } from "./workspace.js";
+import { make_ghosts } from "./ghost.js";
+import { explain, moment_of } from "./teacher.js";
+import { ending_of, same_files } from "./workspace.js";
 
+const glad_for = 2400; // milliseconds
+const not_passed = one => one.verdict !== "passed";
 const signs = { __proto__: null, passed: "✓", failed: "✗", error: "!" };
 
 export class Verdicts {
-  constructor({ machine, ball, workspace, on_place, on_passed, on_hand_in }) {
-    Object.assign(this, { machine, ball, workspace, on_place, on_passed });
+  /** `judge({files, names})` answers as the engine's `test`, of programs that it cannot run with what Tests of page/edu add. */
+  constructor({ machine, judge, ball, map, workspace, on_place, on_passed, on_hand_in }) {
+    Object.assign(this, { machine, judge, ball, workspace, on_place, on_passed });
+    ball.wish = make_ghosts(map);
     $("cheer-hand-in").addEventListener("click", on_hand_in);
     $("verdicts-close").addEventListener("click", () => { $("verdicts").hidden = true; });
   }
@@ -21,25 +27,47 @@ export class Verdicts {
     $("cheer").hidden = true;
     const run = this.ball.run_number = {};
     try {
-      const { results } = await this.machine.call("test", { files, names });
-      const findings = await this.mistakes(results, files);
+      const tested = await this.judge({ files, names }), { results } = tested;
+      const findings = await this.mistakes(tested, files);
       if (this.ball.run_number !== run) return;
       if (findings) return this.ball.fail({ findings });
+      this.report_of = tested.report_of ?? (() => {});
+      const failure = await this.first_failure(results, files);
+      if (this.ball.run_number !== run) return;
       this.ball.finish();
+      if (failure) this.show_failure(failure);
       this.show(results, files);
     } catch (error) {
       if (this.ball.run_number === run) this.ball.fail(error);
     }
   }
-  /** What is wrong with the programs that could not be tested, as `check` says it; null where nothing is. */
-  async mistakes({ tests }, files) {
+  /** The errors in programs that could not be tested, as `check` reports them; null if there are none. */
+  async mistakes({ results: { tests }, findings }, files) {
+    if (findings) return findings;
     const names = [...new Set(tests.filter(({ cases }) => cases.every(one => one.verdict === "error")).map(({ program }) => program))]
-      .filter(name => Object.hasOwn(files, name));
+      .filter(name => Object.hasOwn(files, name) && ending_of(name) !== "js");
     if (!names.length) return null;
     const found = await this.machine.call("check", { files, names });
     return found.summary.errors ? found : null;
   }
-  /** A verdict belongs to a text: it says so where that is another now. */
+  /** The run of the first failed test, to show; null if none failed or it has no run. */
+  async first_failure({ tests }, files) {
+    const test = tests.find(({ cases }) => cases.some(not_passed)), one = test?.cases.find(not_passed);
+    if (!one?.misses?.length) return null;
+    return { report: await this.run_again(test, one, files), miss: one.misses[0] };
+  }
+  /** The data of the run of a case. */
+  async run_again(test, { seed }, files) {
+    return this.report_of(test) ?? (await this.machine.call("replay", { files, names: [test.file], test: test.test, seed, program: test.program })).report;
+  }
+  /** Shows the moment at which it went wrong, and what was wanted. */
+  show_failure({ report, miss }) {
+    const { wish, ghosts } = explain(miss), { ball } = this;
+    ball.show(report, false, ghosts);
+    ball.player.seek(moment_of(miss) ?? ball.player.end());
+    ball.feel("sad", wish);
+  }
+  /** Marks the verdict as outdated if the text has changed. */
   changed(files) {
     if ($("verdicts").hidden) return;
     const same = same_files(files, this.tested.files);
@@ -55,10 +83,14 @@ export class Verdicts {
     $("verdicts").hidden = false;
     this.ball.say(passed === all ? `${words}. Well done!` : words, passed !== all);
     this.changed(this.workspace().files);
-    if (passed === all && !$("verdicts").classList.contains("stale")) this.cheer(this.on_passed());
+    if (passed === all && !$("verdicts").classList.contains("stale")) {
+      this.cheer(this.on_passed());
+      this.ball.feel("glad", "Done!");
+      setTimeout(() => { if ($("played").dataset.mood === "glad") this.ball.feel(""); }, glad_for);
+    }
     $("verdicts").scrollIntoView({ block: "nearest" });
   }
-  /** A lesson is done: that deserves a moment, and leads on; `next` is null where it is no lesson. */
+  /** Celebrates a finished lesson and leads to the next; `next` is null for other documents. */
   cheer(next) {
     $("cheer").hidden = next === null;
     $("cheer-hand-in").hidden = $("hand-in").hidden;
@@ -77,8 +109,10 @@ export class Verdicts {
       button("Watch", () => this.replay(test, one, files), { "aria-label": `Watch ${test.test} run` }));
     item.append(head);
     for (const miss of failed?.misses ?? []) {
-      const where = button(`line ${miss.line}`, () => this.on_place(test.file, miss.line), { class: "link" });
-      item.append(element("p", {}, element("code", {}, miss.expected), " ", where, element("br"), `seen: ${miss.seen}`, miss.where ? element("span", { class: "hint" }, ` ${miss.where}`) : ""));
+      const where = button(`line ${miss.line}`, () => this.on_place(test.file, miss.line), { class: "link", title: miss.expected });
+      const { words } = explain(miss);
+      const told = words ? [element("span", { class: "miss" }, words), " ", where] : [element("code", {}, miss.expected), " ", where, element("br"), `seen: ${miss.seen}`];
+      item.append(element("p", {}, ...told, miss.where ? element("span", { class: "hint" }, ` ${miss.where}`) : ""));
     }
     if (failed?.problem) item.append(element("p", {}, failed.problem));
     return item;
@@ -87,10 +121,11 @@ export class Verdicts {
     if (this.ball.busy) return;
     this.ball.set_busy("replay");
     try {
-      const { report } = await this.machine.call("replay", { files, names: [test.file], test: test.test, seed: one.seed, program: test.program });
+      const report = await this.run_again(test, one, files);
+      const [miss] = one.misses ?? [], { words, ghosts } = miss ? explain(miss) : { words: one.problem, ghosts: [] };
       this.ball.finish();
-      this.ball.show(report, false);
-      this.ball.say(`the run of “${test.test}”${one.verdict === "passed" ? "" : `: ${one.misses?.[0]?.seen ?? one.problem ?? ""}`}`, one.verdict !== "passed");
+      this.ball.show(report, false, ghosts);
+      this.ball.say(`the run of “${test.test}”${one.verdict === "passed" ? "" : `: ${words || miss?.seen || ""}`}`, one.verdict !== "passed");
       this.ball.player.play();
     } catch (error) {
       this.ball.fail(error);

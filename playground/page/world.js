@@ -1,4 +1,4 @@
-// What is around the ball in a run: a course, what happens, numbers for `input`, luck.
+// The world of a run: a course, stimuli, numbers for `input`, a seed.
 
 import { $, element, t } from "./dom.js";
 import { ending_of } from "./workspace.js";
@@ -9,7 +9,7 @@ export function set_up_world({ workspace, keep }) {
     const { run } = workspace();
     $("course").replaceChildren(element("option", { value: "" }, "none"), ...of_kind("svg").map(name => element("option", { value: name, translate: "no" }, name)));
     $("course").value = run.course = of_kind("svg").includes(run.course) ? run.course : "";
-    // Besides files an example may bring lines of its own: `wall y=80`.
+    // An example may have stimulus lines besides files: `wall y=80`.
     run.stimuli = run.stimuli.filter(one => ending_of(one) !== "stimulus" || /\s/.test(one) || of_kind("stimulus").includes(one));
     const choices = [...new Set([...of_kind("stimulus"), ...run.stimuli])];
     $("scripts").hidden = !choices.length;

@@ -1,19 +1,16 @@
-// docs/*.md as pages; the programs in them open in the playground.
+// The pages below docs/ as pages of a site; the programs in them open in the playground.
 
 import { copyFileSync, existsSync, mkdirSync, readFileSync, readdirSync, rmSync, writeFileSync } from "node:fs";
 import { basename, dirname, join, posix, relative } from "node:path";
 import { deflateRawSync } from "node:zlib";
 import MarkdownIt from "markdown-it";
 
-const groups = [
-  ["Learn", ["examples/lessons/README.md", "docs/structured.md", "docs/language.md", "docs/macros.md", "docs/courses.md", "docs/rooms.md", "docs/testing.md",
-    "docs/debugging.md", "docs/gallery.md", "docs/cheatsheet.md", "docs/playground.md"]],
-  ["Use", ["docs/installing.md", "docs/uploading.md", "docs/reliability.md", "docs/ball.md", "docs/reports.md", "docs/editors/README.md",
-    "docs/ci.md", "docs/findings.md", "docs/json.md"]],
-];
+const learn = ["examples/lessons/README.md", ...["structured", "language", "macros", "courses", "rooms", "testing", "debugging", "gallery", "playground"]
+  .map(name => `docs/using/${name}.md`), "docs/reference/cheatsheet.md"];
+const shelves = { Use: /^docs\/(using|editors)\//, Reference: /^docs\/reference\//, Inside: /^docs\/(inside\/|architecture)/ };
 const endings = { orb: "orb", basic: "bas", macro: "macro", test: "test" };
 
-/** Where a text of the checkout stands among the pages: docs/ball.md is ball.html, README.md index.html. */
+/** The page for a text of the checkout: docs/using/ball.md is using/ball.html, README.md index.html. */
 function page_of(path) {
   const inside = path.replace(/^docs\//, "").replace(/^examples\//, "");
   return inside.replace(/(^|\/)README\.md$/, "$1index.html").replace(/\.md$/, ".html");
@@ -28,7 +25,8 @@ class Pages {
   constructor(root, out) {
     this.root = root;
     this.out = out;
-    this.sources = ["README.md", "examples/lessons/README.md", ...this.below("docs")].filter(path => existsSync(join(root, path)));
+    // The navigation stands for docs/README.md, whose place the README has.
+    this.sources = ["README.md", "examples/lessons/README.md", ...this.below("docs").filter(path => path !== "docs/README.md")].filter(path => existsSync(join(root, path)));
     for (const lesson of readdirSync(join(root, "examples/lessons")).sort())
       if (existsSync(join(root, "examples/lessons", lesson, "README.md"))) this.sources.push(`examples/lessons/${lesson}/README.md`);
     this.titles = new Map(this.sources.map(path => [path, (/^#\s+(.+)$/m.exec(this.read(path))?.[1] ?? basename(path)).replaceAll("`", "")]));
@@ -41,7 +39,7 @@ class Pages {
     return readdirSync(join(this.root, folder), { withFileTypes: true }).flatMap(entry =>
       entry.isDirectory() ? this.below(`${folder}/${entry.name}`) : entry.name.endsWith(".md") ? [`${folder}/${entry.name}`] : []).sort();
   }
-  /** Where a link of the page `from` leads in the site; null where what it names is not part of it. */
+  /** The target of a link on the page `from`; null if it is not part of the site. */
   target(from, link) {
     if (/^(https?:|mailto:|#)/.test(link)) return link;
     const [path, anchor] = link.split("#");
@@ -92,7 +90,7 @@ class Pages {
     if (named) env.files[named] = content;
     if (!ending) return `${code}\n`;
     const name = named ?? `${/numbered|orbbasic/.test(info) ? "program" : "example"}.${ending}`;
-    // A test comes with its program, where that stands above it.
+    // A test opens with the program above it.
     const beside = ending === "test" ? Object.keys(env.files).filter(one => one !== name && one.split(".")[0] === name.split(".")[0]) : [];
     const files = Object.fromEntries([name, ...beside].map(one => [one, env.files[one] ?? content]));
     const home = `${posix.relative(posix.dirname(page_of(env.path)), "..")}/index.html`;
@@ -100,7 +98,7 @@ class Pages {
   }
   render(path) {
     const text = this.read(path);
-    // Comments say to tests what a block is; here they say the name of its file.
+    // Comments before blocks are instructions for tests; here they give file names.
     const names = [];
     let name = null, inside = false;
     const kept = text.split("\n").filter(line => {
@@ -119,9 +117,8 @@ class Pages {
   navigation(path) {
     const here = posix.dirname(page_of(path));
     const link = one => `<li><a href="${posix.relative(here, page_of(one))}"${one === path ? ' aria-current="page"' : ""}>${this.markdown.utils.escapeHtml(this.titles.get(one))}</a></li>`;
-    const listed = new Set(groups.flatMap(([, list]) => list));
-    const rest = this.sources.filter(one => !listed.has(one) && one !== "README.md" && !one.startsWith("docs/reference/") && !one.startsWith("examples/"));
-    const all = [...groups, ["Reference", this.sources.filter(one => one.startsWith("docs/reference/"))], ["More", rest]];
+    const on = shelf => this.sources.filter(one => shelf.test(one) && !learn.includes(one));
+    const all = [["Learn", learn], ...Object.entries(shelves).map(([title, shelf]) => [title, on(shelf)])];
     return all.map(([title, list]) => `<h2>${title}</h2><ul>${list.filter(one => this.titles.has(one)).map(link).join("")}</ul>`).join("");
   }
   page(path) {

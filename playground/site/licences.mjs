@@ -1,14 +1,14 @@
-// The licences of what others wrote: what is in the page's script, and what is in orb.wasm.
+// The licences of third-party code in the page's script and in orb.wasm.
 
 import { existsSync, readFileSync, readdirSync } from "node:fs";
 import { join } from "node:path";
 
-/** What is linked into orb.wasm, as Debian calls it; emscripten brings the C and C++ libraries. */
+/** Libraries linked into orb.wasm, by Debian package; emscripten provides the C and C++ libraries. */
 const linked = ["tao-pegtl-dev", "nlohmann-json3-dev", "libexpected-dev", "libfmt-dev", "libpugixml-dev", "libpcre2-dev", "emscripten"];
 
-/** `inputs`: the files that were bundled, by their paths. */
+/** `inputs`: the files that were bundled, by their paths, perhaps behind a name of esbuild's for how they were. */
 export function licences(root, inputs) {
-  const packages = new Set(Object.keys(inputs).map(path => /^.*node_modules\/(?:@[^/]+\/)?[^/]+/.exec(path)?.[0]).filter(Boolean));
+  const packages = new Set(Object.keys(inputs).map(path => /playground\/node_modules\/(?:@[^/]+\/)?[^/]+/.exec(path)?.[0]).filter(Boolean));
   const texts = [`orb\n\n${readFileSync(join(root, "LICENSE"), "utf8")}`];
   for (const path of [...packages].sort()) {
     const folder = join(root, path);

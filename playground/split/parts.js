@@ -1,7 +1,9 @@
-// orb.wasm in two parts: what a visit mostly needs, and the rest, which is loaded when something in it is called.
+// Splits orb.wasm in two: what most visits need, and the rest, loaded when one of its functions is called.
 
-/** For load_engine(): `first(imports)` brings the instance of the first part; `rest()` returns the bytes of the second at
- *  once, as a call waits for them. An error of it is one of that call, and the next one tries again. */
+/**
+ * For load_engine(): `first(imports)` returns the instance of the first part; `rest()` returns the bytes of the
+ * second synchronously, as a call waits for them. If it throws, so does that call, and the next one tries again.
+ */
 export const instance_in_parts = (first, rest) => async imports => {
   let instance = null, whole = false;
   function load_rest() {
@@ -9,7 +11,7 @@ export const instance_in_parts = (first, rest) => async imports => {
     new WebAssembly.Instance(new WebAssembly.Module(rest()), { ...imports, primary: instance.exports });
     whole = true;
   }
-  // Until then these stand in the table where functions of the second part will.
+  // Placeholders in the table for functions of the second part.
   const placeholder = new Proxy({}, {
     get: (_, index) => (...given) => {
       load_rest();

@@ -1,14 +1,14 @@
-// What somebody does on the page who does not reach for a robot, as calls of the engine: what is called here by many
-// becomes the part of orb.wasm that is loaded at once.
-import { readFileSync } from "node:fs";
+// A visit without a robot, as calls of the engine: functions that many visits call go into the part of orb.wasm that is
+// loaded at once.
+import { whole_groups } from "../items.mjs";
 import { welcome } from "../page/steps.js";
 
 const attempt = deed => { try { return deed(); } catch (error) { if (error instanceof WebAssembly.RuntimeError) throw error; } };
 
-/** Mistakes of a first hour, as texts. */
+/** Typical mistakes of a first hour. */
 const slips = ["goroll 0, 300, 1\nprint x\nfor i = 1 to 3\n", "goroll 0, 80\n", "repeat 4\n  goroll 0, 80, 1\n"];
 
-/** What an editor asks about a text that is open. */
+/** The requests of an editor for an open text. */
 function edit(engine, files) {
   let id = 0;
   const tell = (method, params) => attempt(() => engine.call("lsp", { message: { jsonrpc: "2.0", method, params } }));
@@ -36,9 +36,9 @@ function edit(engine, files) {
   }
 }
 
-/** Times as a clock of a browser gives them, with digits of any length. */
+/** Times as a browser's clock gives them, with any number of digits. */
 const begin = 1234.4000000953674, clocked = ms => Math.max(0, begin + ms * 1.0031 - begin);
-/** A run in the time of the robot, in which somebody does what can be done. */
+/** A run in the robot's time, with user actions. */
 function play(engine, given) {
   if (!attempt(() => engine.call("live_start", { ...given, for: "0" }))) return;
   const at = ms => attempt(() => engine.call("live_advance", { ms: clocked(ms) }));
@@ -60,10 +60,12 @@ function test(engine, files, name) {
   if (first) attempt(() => engine.call("replay", { files, names: [name], test: first.test, seed: first.cases[0]?.seed ?? 1, program: first.program }));
 }
 
-/** What visitors do, each part as a call with an engine. `first`: the first program, mistakes, two
- *  lessons and the beginning of a third; `lessons`: the others; `examples`: those in the structured language, of which somebody opens some. Who edits numbered programs, macros or tests, or drives through a
- *  course, loads the rest, as for a robot. `list`: the file that the page loads. */
-export function visits(list) {
+/**
+ * The calls of visitors, in parts; each part takes an engine. `first`: the first program, mistakes, two lessons and
+ * the start of a third; `lessons`: the others; `examples`: the structured ones, of which a visitor opens some. Editing
+ * numbered programs, macros or tests, courses and robots load the rest. `site`: the folder that the page loads from.
+ */
+export function visits(site) {
   const test_all = (engine, files) => Object.keys(files).filter(one => one.endsWith(".test")).forEach(name => test(engine, files, name));
   const run_all = (engine, files, main, run = {}) => {
     const given = { files, ...run, names: run.names ?? [main], for: "10s" };
@@ -83,7 +85,7 @@ export function visits(list) {
       }
     },
   });
-  const [lessons, examples] = JSON.parse(readFileSync(list, "utf8")).groups.map(({ items }) => items
+  const [lessons, examples] = whole_groups(site).map(({ items }) => items
     .filter(({ language, files }) => language === "orb" && !Object.keys(files).some(name => name.endsWith(".svg")))
     .map(tried));
   const done = 2; // in a first visit

@@ -14,7 +14,8 @@ const kinds = {
   sleep: { words: "sleep", icon: "M10 9a5 5 0 1 1-5-7 4 4 0 0 0 5 7z" },
 };
 let events = [];
-let event_rows = [];
+let event_rows = []; // of the events from `first_row` on
+let first_row = 0;
 let event_times = [];
 let current_event = -2;
 const hidden_kinds = new Set();
@@ -26,6 +27,7 @@ function icon(kind) {
 }
 function clear_rows() {
   event_rows = [];
+  first_row = 0;
   current_event = -2;
   $("events").replaceChildren();
 }
@@ -34,7 +36,7 @@ export function forget_events() {
   events = [];
   clear_rows();
 }
-const most_rows = 500; // of a run that goes on
+const most_rows = 500; // more would make a long run slow
 const spare_rows = 50; // go at once: all that stay move up then
 /** More of a run that goes on; the oldest rows go. */
 export function list_more_events(more) {
@@ -59,18 +61,34 @@ export function list_events() {
   const goes_on = playback.live && listed <= playback.shown.run.events.length && events.every((event, i) => event.t === playback.shown.run.events[i].t && !playback.shown.run.events[i].gap);
   events = [...playback.shown.run.events];
   event_times = events.map(event => event.t);
-  if (!goes_on) clear_rows();
-  for (const [i, event] of events.entries()) {
-    if (goes_on && i < listed) continue;
-    if (event.gap && i > 0)
-      $("events").append(element("li", { class: "gap" }, `${event.gap.toLocaleString("en")} events in between are not listed`));
-    add_row(event);
+  if (events.length > most_rows) list_rows(events.length - 1);
+  else {
+    if (!goes_on) clear_rows();
+    for (const event of events.slice(event_rows.length)) add_row(event);
   }
   $("no-events").hidden = events.length > 0;
   list_filters();
   show_kinds();
 }
+/** The rows around an event, of more than stand in the list at once. */
+function list_rows(around) {
+  clear_rows();
+  first_row = Math.max(0, Math.min(around - most_rows / 2, events.length - most_rows));
+  const after = first_row + most_rows;
+  if (first_row > 0) add_rest(`${first_row.toLocaleString("en")} events before these`, first_row - 1);
+  for (const event of events.slice(first_row, after)) add_row(event);
+  if (after < events.length) add_rest(`${(events.length - after).toLocaleString("en")} events after these`, after);
+}
+function add_rest(words, nearest) {
+  const button = element("button", { type: "button" }, words);
+  button.addEventListener("click", () => seek(events[nearest].t));
+  const item = element("li", { class: "gap" });
+  item.append(button);
+  $("events").append(item);
+}
 function add_row(event) {
+  if (event.gap && event !== events[0])
+    $("events").append(element("li", { class: "gap" }, `${event.gap.toLocaleString("en")} events in between are not listed`));
   const item = element("li", { class: event.kind });
   const button = element("button", { type: "button", "data-t": event.t, "data-kind": event.kind });
   const words = element("span", { class: "words" }, event.text.replace(/\n$/, "") || "(empty line)");
@@ -99,21 +117,27 @@ function list_filters() {
 }
 function show_kinds() {
   for (const button of $("filters").children) button.setAttribute("aria-pressed", String(!hidden_kinds.has(button.dataset.filter)));
-  events.forEach((event, i) => { event_rows[i].hidden = hidden_kinds.has(event.kind); });
+  event_rows.forEach((row, i) => { row.hidden = hidden_kinds.has(events[first_row + i].kind); });
 }
 function show_event() {
   const i = last_at(event_times, playback.now);
   if (i === current_event) return;
-  const from = Math.max(0, Math.min(i, current_event)), to = Math.min(events.length - 1, Math.max(i, current_event));
-  for (let k = from; k <= to; ++k) event_rows[k].classList.toggle("future", k > i);
-  if (current_event === -2) event_rows.forEach((row, k) => row.classList.toggle("future", k > i));
-  if (current_event >= 0) { event_rows[current_event].classList.remove("at"); event_rows[current_event].removeAttribute("aria-current"); }
+  const near = Math.max(i, 0);
+  if (events.length && !row_of(near)) {
+    list_rows(near);
+    show_kinds();
+  }
+  if (current_event === -2) event_rows.forEach((row, k) => row.classList.toggle("future", first_row + k > i));
+  else for (let k = Math.max(0, Math.min(i, current_event)); k <= Math.max(i, current_event); ++k) row_of(k)?.classList.toggle("future", k > i);
+  row_of(current_event)?.classList.remove("at");
+  row_of(current_event)?.removeAttribute("aria-current");
   current_event = i;
   if (i < 0) return;
-  event_rows[i].classList.add("at");
-  event_rows[i].setAttribute("aria-current", "true");
-  keep_in_view($("events-scroll"), event_rows[i]);
+  row_of(i).classList.add("at");
+  row_of(i).setAttribute("aria-current", "true");
+  keep_in_view($("events-scroll"), row_of(i));
 }
+const row_of = i => event_rows[i - first_row];
 watch(show_event);
 /** To the event before or after this moment. */
 export function jump(by) {

@@ -135,10 +135,18 @@ export function draw_track() {
   art.replaceChildren();
   art.setAttribute("viewBox", `0 0 ${width} 10`);
   const x = t => clamp(t / playback.end * width, 0, width);
-  led.t.forEach((t, i) => {
-    if (!led.rgb[i]) return;
-    const until = i + 1 < led.t.length ? led.t[i + 1] : playback.end;
-    shape("rect", { x: x(t).toFixed(2), y: 0, width: Math.max(x(until) - x(t), .25).toFixed(2), height: 10, fill: css_color(led.rgb[i]), "shape-rendering": "crispEdges" }, art);
+  // Of colours that change faster than anybody sees, some.
+  const places = led.t.map(x);
+  let last = -1;
+  const seen = [...places.keys()].filter(i => {
+    const is_seen = places[i] - last >= 1 || (places[i + 1] ?? width) - places[i] >= 1;
+    if (is_seen) last = places[i];
+    return is_seen;
+  });
+  seen.forEach((at, n) => {
+    if (!led.rgb[at]) return;
+    const from = places[at], until = places[seen[n + 1]] ?? width;
+    shape("rect", { x: from.toFixed(2), y: 0, width: Math.max(until - from, .25).toFixed(2), height: 10, fill: css_color(led.rgb[at]), "shape-rendering": "crispEdges" }, art);
   });
   for (const event of run.events)
     if (event.kind === "bump" || event.kind === "error")

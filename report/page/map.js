@@ -7,6 +7,9 @@ import { draw_event, draw_marks, list_signs } from "./map_marks.js";
 import { draw_ball, draw_path, draw_progress, draw_stretches, place_ball } from "./map_path.js";
 import { others, playback, show, watch } from "./playback.js";
 
+const eases_for = 400; // milliseconds
+const still = matchMedia("(prefers-reduced-motion: reduce)");
+
 function make_map(map) {
   const chart = make_chart(map);
   let layers = null;
@@ -27,6 +30,7 @@ function make_map(map) {
     }
   }
   function draw() {
+    for (const one of map.getAnimations()) one.cancel(); // what is measured is at rest
     measure(chart);
     for (const child of [...map.children]) if (child.nodeName !== "title") child.remove();
     map.setAttribute("viewBox", `0 0 ${chart.width} ${chart.height}`);
@@ -44,6 +48,17 @@ function make_map(map) {
     draw_paper_scale(chart, shape("g", { class: "paper-scale" }, map));
     draw_guest_balls();
     layers = { marks, ...draw_ball(chart, map) };
+    draw_more(chart, layers);
+  }
+  /** Draws anew, and lets what is seen now become that little by little. */
+  function draw_eased() {
+    const before = { ...chart };
+    draw();
+    if (before.width !== chart.width || before.height !== chart.height || still.matches) return;
+    const factor = before.scale / chart.scale;
+    const from = `translate(${before.left - chart.left * factor}px, ${before.top - chart.top * factor}px) scale(${factor})`;
+    for (const one of map.parentElement.querySelectorAll(":scope > svg"))
+      one.animate({ transform: [from, "none"], transformOrigin: ["0 0", "0 0"] }, { duration: eases_for, easing: "ease" });
   }
   /** Following moves the map only when the ball comes near its edge. */
   function leaves_view(state) {
@@ -82,8 +97,11 @@ function make_map(map) {
     draw_stretches(chart);
     for (const event of events) draw_event(chart, layers.marks, event);
   }
-  return { grow, load: one => { chart.one = one; }, draw, show_ball, scale: () => chart.scale, words: map.nextElementSibling };
+  return { grow, load: one => { chart.one = one; }, draw, draw_eased, show_ball, scale: () => chart.scale, words: map.nextElementSibling };
 }
+let draw_more = () => {};
+/** `draw(chart, layers)` adds to each map that is drawn. */
+export function on_draw(draw) { draw_more = draw; }
 let on_choice = () => {};
 /** `take(one)` is called with the ball of a room that somebody points at. */
 export function on_ball_chosen(take) { on_choice = take; }
@@ -117,9 +135,14 @@ export function draw_maps() {
   for (const one of maps) one.draw();
   draw_scale();
 }
-export function redraw() {
+/** The same where another part of the floor, or more of it, is looked at. */
+export function draw_maps_eased() {
+  for (const one of maps) one.draw_eased();
+  draw_scale();
+}
+export function redraw(draw = draw_maps) {
   if (!playback.main) return;
-  draw_maps();
+  draw();
   show();
 }
 
@@ -127,20 +150,20 @@ export function redraw() {
 export function grow_maps(first, events) {
   if (outgrown(first)) {
     survey();
-    draw_maps();
+    draw_maps_eased();
   } else {
     for (const one of maps) one.grow(events);
   }
   if (events.some(event => event.x !== undefined)) list_signs();
 }
 
-export function zoom_by(factor) {
+export function zoom_by(factor, draw = draw_maps) {
   view.zoom = clamp(view.zoom * factor, .2, 60);
-  redraw();
+  redraw(draw);
 }
 export function fit() {
   Object.assign(view, { zoom: 1, x: 0, y: 0 });
-  redraw();
+  redraw(draw_maps_eased);
 }
 export function toggle_follow() {
   view.follow = !view.follow;
@@ -156,8 +179,8 @@ function toggle_drawn() {
   fit();
 }
 $("as-drawn").addEventListener("click", toggle_drawn);
-$("zoom-in").addEventListener("click", () => zoom_by(1.5));
-$("zoom-out").addEventListener("click", () => zoom_by(1 / 1.5));
+$("zoom-in").addEventListener("click", () => zoom_by(1.5, draw_maps_eased));
+$("zoom-out").addEventListener("click", () => zoom_by(1 / 1.5, draw_maps_eased));
 $("zoom-fit").addEventListener("click", fit);
 $("follow").addEventListener("click", toggle_follow);
 export function show_still() {

@@ -3,9 +3,9 @@
 import { others, playback } from "./playback.js";
 
 export const view = { zoom: 1, x: 0, y: 0, follow: false, as_drawn: true };
-/** What the maps hold: its corners, whether the ball moved, whether there is anything to measure by, and where
- *  the drawing of the course puts what is ahead of the ball at its start. */
-export const area = { box: null, moved: false, mapped: false, ahead: [0, 1] };
+/** What the maps hold: its corners, places that are to be seen besides what the run has, whether the ball moved, whether there is
+ *  anything to measure by, and where the drawing of the course puts what is ahead of the ball at its start. */
+export const area = { box: null, also: [], moved: false, mapped: false, ahead: [0, 1] };
 const upright = [0, 1];
 /** Whether the drawing of the course stands otherwise than the ball sees it. */
 export const is_turned = () => area.ahead[1] < .9999;
@@ -30,17 +30,20 @@ export function survey() {
   area.ahead = playback.main.run.course?.ahead ?? upright;
   const corners = playback.runs.flatMap(one => one.run.course ? [one.run.course] : []).flatMap(({ low, high }) => [low, high, [low[0], high[1]], [high[0], low[1]]]);
   const poses = [...playback.runs, ...others()].flatMap(({ pose }) => pose.x.map((x, i) => [x, pose.y[i]]));
-  const places = [...poses, ...corners].map(([x, y]) => place(x, y));
+  const places = [...poses, ...corners, ...area.also].map(([x, y]) => place(x, y));
   const x = places.map(([right]) => right), y = places.map(([, up]) => up);
   const [left, right, low, high] = [least(x), most(x), least(y), most(y)];
   area.box = { left, right, low, high, middle_x: (left + right) / 2, middle_y: (low + high) / 2 };
   const spread = axis => { const list = poses.map(one => one[axis]); return most(list) - least(list); };
   area.moved = spread(0) > 1 || spread(1) > 1;
-  if (playback.live && area.moved) grow_box();
+  // A course has its room already.
+  const fits = corners.length > 0 && places.length > 0 && poses.every(([x, y]) => in_course(place(x, y), corners.map(([x, y]) => place(x, y))));
+  if (playback.live && area.moved && !fits) grow_box();
   // A map has a scale where something lies on it; else it shows the ball alone.
-  area.mapped = area.moved || playback.runs.some(one => one.run.course);
+  area.mapped = area.moved || area.also.length > 0 || playback.runs.some(one => one.run.course);
 }
 
+const in_course = ([right, up], corners) => corners.some(([x]) => x <= right) && corners.some(([x]) => x >= right) && corners.some(([, y]) => y <= up) && corners.some(([, y]) => y >= up);
 const room_cm = 50; // around the start of a run that goes on
 /** Makes room for what is to come, so that the map is seldom drawn anew. */
 function grow_box() {
@@ -95,14 +98,17 @@ function covered(map, { top, bottom }) {
   const head = box(".stage-head"), key = box(".key");
   return [head.bottom - top, key.height ? bottom - key.top : 0].map(height => Math.max(0, Math.round(height)));
 }
+const numbers_px = 20; // of the row below
 /** Fits what is looked at into the element, whatever size that has now. */
 export function measure(chart) {
   const size = chart.map.getBoundingClientRect();
   const width = Math.max(size.width, 50), height = Math.max(size.height, 50);
-  const [above, below] = covered(chart.map, size), free = Math.max(height - above - below, 50);
+  const [above, under] = covered(chart.map, size), fills = above > 0 && !!chart.one.run.course; // which has edges of its own
+  const below = fills ? numbers_px : under, free = Math.max(height - above - below, 50);
   const wide = Math.max(area.box.right - area.box.left, 20), tall = Math.max(area.box.high - area.box.low, 20);
-  const edges = Math.min(above || below ? 48 : 84, free * .35); // above and below what is drawn
-  const fitting = Math.min((width - 96) / wide, (free - edges) / tall);
+  // Above and below what is drawn, and beside it.
+  const edges = fills ? 12 : Math.min(above || below ? 48 : 84, free * .35), sides = fills ? 24 : 96;
+  const fitting = Math.min((width - sides) / wide, (free - edges) / tall);
   const scale = Math.max(fitting, .02) * view.zoom;
   const state = chart.one.state_at(playback.now);
   const [right, up] = view.follow ? place(state.x, state.y) : [area.box.middle_x + view.x, area.box.middle_y + view.y];

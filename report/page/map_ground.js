@@ -70,7 +70,7 @@ export function draw_zones(chart, parent, words) {
     const d = zone.rings.map(ring => `M${ring.map(chart.point).join("L")}z`).join("");
     shape("path", { d, class: "zone", "fill-rule": zone.evenodd ? "evenodd" : "nonzero", "data-zone": zone.id }, parent);
     const { x, y } = name_place(chart, zone.id, outlines[i], lines, taken);
-    shape("text", { x, y: y + 4, "text-anchor": "middle", class: "zone-word" }, words).textContent = zone.id;
+    shape("text", { x, y: y + 4, "text-anchor": "middle", class: "zone-word", translate: "no" }, words).textContent = zone.id;
   }
   return { taken, borders: lines };
 }

@@ -11,6 +11,34 @@ function line_from(chart, from, to) {
   for (let i = from + 1; i <= to; ++i) d += `L${at(i)}`;
   return d;
 }
+/** A stroke as a whole, and up to where the ball is. */
+const line_of = (chart, { pieces }) => pieces.map(({ from, to }) => line_from(chart, from, to)).join("");
+const line_until = (chart, { pieces }, { index, x, y }) => pieces.filter(({ from }) => from <= index)
+  .map(({ from, to }) => to <= index ? line_from(chart, from, to) : `${line_from(chart, from, index)}L${chart.point([x, y])}`).join("");
+
+const alone = stretch => Object.assign(stretch, { pieces: [stretch] });
+const most_strokes = 600, groups = 150, palette = 4; // of a run so long that its stretches are drawn together
+/** Each stretch by itself, or those that follow each other in as many strokes as they have colours, which are a few then. */
+function strokes_of(stretches) {
+  if (stretches.length <= most_strokes) return stretches.map(alone);
+  const long = Math.ceil(stretches.length / groups), strokes = [];
+  for (let begin = 0; begin < stretches.length; begin += long) {
+    const own = new Map();
+    for (const stretch of stretches.slice(begin, begin + long)) {
+      const color = own.has(stretch.color) || own.size < palette ? stretch.color : nearest(stretch.color, [...own.keys()]);
+      if (!own.has(color)) own.set(color, { color, from: stretch.from, to: stretch.to, pieces: [] });
+      own.get(color).pieces.push(stretch);
+      own.get(color).to = stretch.to;
+    }
+    strokes.push(...own.values());
+  }
+  return strokes;
+}
+const channels = rgb => [rgb >> 16, rgb >> 8 & 255, rgb & 255];
+function nearest(color, some) {
+  const far = other => channels(other).reduce((sum, value, i) => sum + (value - channels(color)[i]) ** 2, 0);
+  return some.reduce((a, b) => far(b) < far(a) ? b : a);
+}
 /** All of the path, faded; the part that lies before the moment shown is laid over it by draw_progress(). */
 export function draw_path(chart, parent = chart.map) {
   for (const old of chart.map.parentElement.querySelectorAll(".ground")) old.remove();
@@ -18,7 +46,8 @@ export function draw_path(chart, parent = chart.map) {
   const halos = shape("g", { class: "halo" }, parent);
   const kept = kept_in(playback.live ? ground_of(chart) : parent);
   const fresh = shape("g", {}, parent);
-  chart.path = { ahead, halos, ...kept, fresh, drawn: 0, kept: 0 };
+  const { stretches } = chart.one, whole = playback.live ? stretches.slice(0, -1) : stretches; // the last may still grow
+  chart.path = { ahead, halos, ...kept, fresh, strokes: strokes_of(whole), taken: whole.length, drawn: 0, past: 0, kept: 0 };
   draw_stretches(chart);
 }
 const kept_in = parent => {
@@ -26,10 +55,33 @@ const kept_in = parent => {
   return { dark, casings: shape("g", {}, parent), done: shape("g", {}, parent) };
 };
 const most_kept = 120; // stretches that are painted at once
+const most_looks = 16; // of these
+/** Of those that have come to rest a few lines remain: one for each look. Many more in one line are slow to paint. */
+function fold_kept({ dark, casings, done }) {
+  for (const layer of [dark, casings, done]) {
+    const looks = new Map();
+    for (const line of [...layer.children]) {
+      const own = line.getAttribute("stroke") ?? line.getAttribute("class");
+      const look = looks.has(own) || looks.size < most_looks ? own : css_color(nearest(rgb_of(own), [...looks.keys()].map(rgb_of)));
+      const held = looks.get(look);
+      if (!held) {
+        looks.set(look, line);
+        continue;
+      }
+      held.setAttribute("d", held.getAttribute("d") + line.getAttribute("d"));
+      line.remove();
+    }
+  }
+}
+const rgb_of = color => parseInt(color.slice(1), 16);
 /** A stretch of a run that goes on has come to its end. */
-function keep_stretch(chart, { layers, color }) {
-  const { path } = chart, [line, casing] = [...layers].reverse();
-  if (++path.kept % most_kept === 0) Object.assign(path, kept_in(ground_of(chart)));
+function keep_stretch(chart, stretch) {
+  const { path } = chart, { layers, color } = stretch, [line, casing] = [...layers].reverse();
+  stretch.state = "kept";
+  if (++path.kept % most_kept === 0) {
+    fold_kept(path);
+    Object.assign(path, kept_in(ground_of(chart)));
+  }
   (color ? path.done : path.dark).append(line);
   if (casing) path.casings.append(casing);
 }
@@ -41,14 +93,15 @@ function ground_of(chart) {
 }
 /** Those that are not drawn yet. */
 export function draw_stretches(chart) {
-  const { path, one: { stretches } } = chart;
-  for (; path.drawn < stretches.length; ++path.drawn) draw_stretch(chart, stretches[path.drawn]);
+  const { path, one: { stretches } } = chart, { strokes } = path;
+  for (; path.taken < stretches.length; ++path.taken) strokes.push(alone(stretches[path.taken]));
+  for (; path.drawn < strokes.length; ++path.drawn) draw_stretch(chart, strokes[path.drawn]);
 }
 const casing_class = color => brightness(color) > .7 ? "run casing pale" : brightness(color) < .2 ? "run casing deep" : "run casing";
 function draw_stretch(chart, stretch) {
   const { ahead, halos, dark, casings, done, fresh } = chart.path;
   const lit = stretch.color !== 0;
-  const look = { class: lit ? "run" : "run unlit", d: line_from(chart, stretch.from, stretch.to), ...lit ? { stroke: css_color(stretch.color) } : {} };
+  const look = { class: lit ? "run" : "run unlit", d: line_of(chart, stretch), ...lit ? { stroke: css_color(stretch.color) } : {} };
   stretch.d = look.d;
   // Of a run that goes on nothing lies ahead, and what grows stands apart from what each frame need not paint anew.
   const all = !playback.live;
@@ -64,21 +117,22 @@ function draw_stretch(chart, stretch) {
 }
 /** Shows the part of the path that lies before this moment; only what changed is touched. */
 export function draw_progress(chart, state) {
-  const i = state.index;
-  for (const stretch of chart.one.stretches) {
+  const i = state.index, { path } = chart, last = path.strokes.at(-1);
+  for (const stretch of path.strokes.slice(path.past)) {
+    if (stretch.state === "kept") continue;
     const wanted = stretch.to <= i ? "done" : stretch.from <= i ? "open" : "ahead";
-    if (wanted === stretch.state && wanted !== "open") continue;
-    const cut = wanted === "open", whole = !cut && (stretch.state === "open" || playback.live);
-    const d = cut
-      ? `${line_from(chart, stretch.from, Math.min(i, stretch.to))}L${chart.point([state.x, state.y])}`
-      : whole ? line_from(chart, stretch.from, stretch.to) : stretch.d;
-    for (const layer of stretch.layers) {
-      if (cut || whole) layer.setAttribute("d", d);
-      layer.setAttribute("visibility", wanted === "ahead" ? "hidden" : "visible");
+    if (wanted !== stretch.state || wanted === "open") {
+      const cut = wanted === "open", whole = !cut && (stretch.state === "open" || playback.live);
+      const d = cut ? line_until(chart, stretch, state) : whole ? line_of(chart, stretch) : stretch.d;
+      for (const layer of stretch.layers) {
+        if (cut || whole) layer.setAttribute("d", d);
+        layer.setAttribute("visibility", wanted === "ahead" ? "hidden" : "visible");
+      }
+      stretch.state = wanted;
     }
-    if (playback.live && wanted === "done") keep_stretch(chart, stretch);
-    stretch.state = wanted;
+    if (playback.live && wanted === "done" && stretch !== last) keep_stretch(chart, stretch); // the last may still grow
   }
+  while (path.strokes[path.past]?.state === "kept") ++path.past;
 }
 /** `tag` tells the balls of a room apart. */
 export function draw_ball(chart, parent, tag = "") {

@@ -7,7 +7,7 @@ import { next_theme, show_heading } from "./heading.js";
 import { take_keys } from "./keys.js";
 import { draw_lanes, draw_track, list_lanes } from "./lanes.js";
 import { choose, list_balls, list_runs } from "./lists.js";
-import { draw_maps, grow_maps, list_maps, on_ball_chosen, show_still } from "./map.js";
+import { draw_maps, draw_maps_eased, grow_maps, list_maps, on_ball_chosen, show_still } from "./map.js";
 import { survey, view } from "./map_chart.js";
 import { list_signs } from "./map_marks.js";
 import { look_at_ball, playback, seek, show, take, take_room, watch } from "./playback.js";
@@ -15,8 +15,8 @@ import { lines_now } from "./source.js";
 import { set_playing, set_rate, slider } from "./transport.js";
 import "./paper.js";
 
-function draw_everything() {
-  draw_maps();
+function draw_everything(draw = draw_maps) {
+  draw();
   draw_lanes();
   show();
 }
@@ -46,7 +46,7 @@ function load(run, run_before = null, goes_on = false) {
   playback.live = goes_on;
   draw_track();
   playback.now = clamp(playback.now, 0, playback.end);
-  draw_everything();
+  draw_everything(continued ? draw_maps_eased : draw_maps);
 }
 /** Shows a room of balls as it ended, and its first ball. */
 function load_room(room) {
@@ -96,7 +96,7 @@ function settle() {
   list_signs();
   show_still();
   draw_track();
-  draw_everything();
+  draw_everything(draw_maps_eased);
 }
 /** The moment that the address asks for: `#t=3.2`, in seconds; null where it asks for none. */
 function asked_time() {

@@ -64,6 +64,10 @@ $("source")?.addEventListener("click", event => {
 });
 export function list_files() {
   if (!$("source")) return show_file(0);
+  // A robot that is driven from elsewhere has no program of its own.
+  const none = !playback.shown.run.files.length;
+  for (const part of [document.querySelector(".pane.source"), readings.line.parentElement, $("line-back"), $("line-on")]) part.hidden = none;
+  document.querySelector(".board").classList.toggle("has-no-program", none);
   $("file").replaceChildren(...playback.shown.run.files.map((file, i) => element("option", { value: i }, base_name(file.name))));
   $("file").hidden = playback.shown.run.files.length < 2;
   show_file(0);

@@ -15,13 +15,14 @@ namespace orb::run {
 namespace {
 
 constexpr std::size_t rows = driving_rows.size();
-/// Each number as how many times the model's it is.
+/// Parameters, as multiples of the model's.
 using Vector = Eigen::VectorXd;
 using Residuals = std::vector<double>;
 
-constexpr double yaw_cm_per_deg = 0.2; ///< what a degree counts beside places
-constexpr double open_share = 0.15;    ///< a greater spread leaves a number open
-/// Of how far the legs lead, left unexplained. Of public drives the model leaves up to 19 %.
+constexpr double yaw_cm_per_deg = 0.2; ///< weight of a degree relative to places
+constexpr double open_share = 0.15;    ///< a larger relative spread leaves a parameter undetermined
+/// Largest share of the legs' extent that may remain unexplained. The model leaves up to 19 % of
+/// public drives.
 constexpr double misfit_share = 0.3;
 constexpr double misfit_cm = 2;
 constexpr std::size_t least_legs = 6;
@@ -34,24 +35,25 @@ Vector each(double value) {
   return Vector::Constant(index(rows), value);
 }
 
-/// As the search has it, and back. Of the grip it has the reciprocal: 0 where nothing slips.
+/// Converts a value to and from the search space. Grip is searched as its reciprocal, so that 0
+/// means no slip.
 double turned(const DrivingRow& row, double value) {
   return row.place == &spec::Driving::grip ? 1 / value : value;
 }
 
-/// The nearest to `times` the model's number that a profile can say.
+/// Clamps `times` to the range that a profile may contain.
 double in_range(const DrivingRow& row, const spec::Driving& model, double times) {
   const double one = turned(row, value_of(model, row));
   const auto [least, most] = std::minmax({turned(row, row.least), turned(row, row.most)});
   return std::clamp(times, least / one, most / one);
 }
 
-/// In the unit of the row.
+/// Returns the value in the unit of the row.
 double value_at(const DrivingRow& row, const spec::Driving& model, double times) {
   return turned(row, in_range(row, model, times) * turned(row, value_of(model, row)));
 }
 
-/// Where the model is when the robot was seen.
+/// Simulates a leg and returns the model's place at each sample.
 void follow(const Leg& leg, const spec::Driving& numbers, std::vector<Seen>& places) {
   vm::Body body(1, numbers);
   auto order = leg.orders.begin();
@@ -66,14 +68,14 @@ void follow(const Leg& leg, const spec::Driving& numbers, std::vector<Seen>& pla
   }
 }
 
-/// The instant from which on a leg counts: it has turned on the spot, and still rests.
+/// The start of the part that counts: the robot has turned in place and is still at rest.
 Duration counts_from(const Leg& leg) {
   constexpr Duration before = 150ms;
   return leg.orders[1].at - before;
 }
 
-/// What the model is off by, in cm. Where a leg began nobody knows better than all that was seen of
-/// it, so the mean of its places is taken off.
+/// Appends the errors of the model in cm. Subtracts the mean of the place errors, because all
+/// samples together locate the start better than the first one.
 void append_leg(const Leg& leg, const spec::Driving& numbers, Residuals& residuals) {
   std::vector<Seen> places;
   follow(leg, numbers, places);
@@ -95,8 +97,9 @@ void append_leg(const Leg& leg, const spec::Driving& numbers, Residuals& residua
     }
 }
 
-/// Its dead time lies between two steps of the control system, and so do the residuals. An order
-/// that is followed comes right after a step; a real one comes half a step later on average.
+/// Interpolates the residuals for a dead time between two steps of the control system. The
+/// simulated order comes right after a step, a real one half a step later on average; hence the
+/// 0.5.
 Residuals residuals_of(const std::vector<const Leg*>& legs, const spec::Driving& model,
                        const Vector& at) {
   spec::Driving numbers;
@@ -122,16 +125,16 @@ Residuals residuals_of(const std::vector<const Leg*>& legs, const spec::Driving&
   return below;
 }
 
-/// How strongly a number is drawn toward the model's: what being off by all of that counts, in cm.
-constexpr double pull_weak = 0.02; ///< decides nothing but what the legs leave open
-constexpr double pull_some = 0.5;  ///< keeps a line of speeds in reach that one leg has told
-constexpr double pull_fast = 1e4;  ///< holds it there
+/// Strengths of the pull toward the model's parameters: the cost in cm of being off by 100 %.
+constexpr double pull_weak = 0.02; ///< decides only what the legs leave open
+constexpr double pull_some = 0.5;  ///< keeps speed lines fitted to a single leg plausible
+constexpr double pull_fast = 1e4;  ///< fixes the parameter
 
 bool is_speed(const DrivingRow& row) {
   return row.place == &spec::Driving::speed_offset || row.place == &spec::Driving::speed_slope;
 }
 
-/// The others stay the model's.
+/// Fixes all parameters except those of the speed.
 Vector speeds_only(double pull) {
   Vector pulls(index(rows));
   for (std::size_t row = 0; row < rows; ++row)
@@ -143,8 +146,8 @@ int top_speed(const Leg& leg) {
   return leg.orders[1].speed;
 }
 
-/// The residuals as Eigen asks for them: those of the legs, then what draws each number toward the
-/// model's, then what drives it back into its range.
+/// Residuals in the form that Eigen expects: those of the legs, then for each parameter its pull
+/// toward the model's and the penalty for leaving its range.
 struct Misfit {
   using Scalar = double;
   using InputType = Vector;
@@ -170,7 +173,7 @@ struct Misfit {
     return 0;
   }
   int df(const Vector& at, Eigen::MatrixXd& slopes) const {
-    constexpr double step = 0.02; // of a number: the physics goes in steps, less would be noise
+    constexpr double step = 0.02; // relative; less would measure noise of the stepwise physics
     for (Eigen::Index row = 0; row < index(rows); ++row) {
       slopes.col(row).setZero();
       slopes(slopes.rows() - 2 * index(rows) + 2 * row, row) = pull[row];
@@ -189,13 +192,13 @@ struct Misfit {
 
 struct Found {
   Vector at = each(1);
-  Vector spread;     ///< as parts of the model's numbers
-  double square = 0; ///< of the residuals
-  double noise = 0;  ///< the mean of that
+  Vector spread;     ///< relative to the model's parameters
+  double square = 0; ///< sum of squared residuals
+  double noise = 0;  ///< mean squared residual
 };
 
 Vector lowest(const Misfit& misfit, Vector at) {
-  Misfit copy = misfit; // Eigen wants to change it
+  Misfit copy = misfit; // Eigen needs a mutable object
   Eigen::LevenbergMarquardt<Misfit> search(copy);
   constexpr double close = 1e-5;
   search.parameters.ftol = close;
@@ -218,7 +221,7 @@ Found lowest_and_spread(const Misfit& misfit, const Vector& start) {
   return found;
 }
 
-/// What the places are off by, root mean square.
+/// Root mean square error of the places.
 double rms_cm(const Residuals& residuals) {
   double sum = 0;
   for (std::size_t i = 0; i + 2 < residuals.size(); i += 3)
@@ -230,8 +233,8 @@ double error_cm(const std::vector<const Leg*>& legs, const spec::Driving& model,
   return rms_cm(residuals_of(legs, model, at));
 }
 
-/// What the samples are off by other than by trembling, root mean square: that changes slowly from
-/// one sample to the next (John von Neumann's ratio).
+/// Root mean square error without jitter: it keeps what changes slowly from one sample to the next
+/// (John von Neumann's ratio).
 double steady_cm(const Residuals& residuals) {
   double all = 0, trembling = 0;
   for (std::size_t i = 0; i < residuals.size(); ++i) {
@@ -242,7 +245,7 @@ double steady_cm(const Residuals& residuals) {
   return std::sqrt(std::max(0.0, all - trembling) * 3 / static_cast<double>(residuals.size()));
 }
 
-/// How far the legs lead: what a model that stands still is off by.
+/// Extent of the legs: the error of a model that never moves.
 double extent_cm(const std::vector<const Leg*>& legs) {
   spec::Driving still;
   still.speed_offset = still.speed_slope = 0;
@@ -254,7 +257,7 @@ double extent_cm(const std::vector<const Leg*>& legs) {
   return steady_cm(residuals);
 }
 
-/// Those that the numbers found do not fit much worse than the others: an order may be lost.
+/// Returns the legs that fit about as well as the others. A leg fits badly if an order was lost.
 std::vector<const Leg*> fitting(const std::vector<const Leg*>& legs, const spec::Driving& model,
                                 const Vector& at) {
   constexpr double much = 4;
@@ -280,12 +283,12 @@ std::vector<const Leg*> whole(std::span<const Leg> legs) {
   return found;
 }
 
-/// How far a number is from determined: its spread as a part of it, or of the model's.
+/// Relative spread of a parameter, of its own value or the model's, whichever is larger.
 double openness(const Found& found, std::size_t row) {
   return found.spread[index(row)] / std::max(found.at[index(row)], 1.0);
 }
 
-/// Half the way between the values one spread to both sides, in the unit of the row.
+/// Half the distance between the values one spread below and above, in the unit of the row.
 double spread_of(const Found& found, std::size_t row, const spec::Driving& model) {
   const double at = found.at[index(row)];
   const double spread = found.spread[index(row)];
@@ -293,8 +296,9 @@ double spread_of(const Found& found, std::size_t row, const spec::Driving& model
   return std::abs(value_at(info, model, at + spread) - value_at(info, model, at - spread)) / 2;
 }
 
-/// Finds the numbers. Where some are open, the most open one becomes the model's, until none is:
-/// but for one that drives the legs much worse then, such as the grip of a robot that never slips.
+/// Fits the parameters. While any is undetermined, fixes the least determined one at the model's
+/// value; keeps it if the legs then fit much worse, for example the grip of a robot that never
+/// slips.
 Vector find(const std::vector<const Leg*>& legs, const spec::Driving& model, const Vector& start,
             Calibration& result) {
   constexpr double much = 25; // sigmas, squared
@@ -331,8 +335,8 @@ Vector find(const std::vector<const Leg*>& legs, const spec::Driving& model, con
   return found.at;
 }
 
-/// Why these numbers are none of a robot: one is at the end of its range, give or take its spread.
-/// A robot may follow at once, though, and a floor may be as slippery as it likes.
+/// Says why no robot can have these parameters: one lies at the end of its range, give or take its
+/// spread. Exceptions: a robot may respond at once, and a floor may be arbitrarily slippery.
 std::string nonsense(const Calibration& result) {
   for (std::size_t row = 0; row < rows; ++row) {
     const auto& info = driving_rows[row];
@@ -350,8 +354,8 @@ std::string nonsense(const Calibration& result) {
   return {};
 }
 
-/// Why the numbers tell nothing of a robot; empty where they do. `misfit` of `extent`, both in cm,
-/// is not explained.
+/// Says why the parameters are not trustworthy; empty if they are. `misfit` is the unexplained part
+/// of `extent`, both in cm.
 std::string doubt(const Calibration& result, std::size_t whole, double misfit, double extent) {
   constexpr double least_extent_cm = 1;
   if (whole < least_legs)
@@ -382,7 +386,7 @@ tl::expected<Calibration, Failure> fit(std::span<const Leg> legs, spec::Robot ro
   if (used.empty())
     return refuse(ExitCode::Refused, doubt(result, 0, 0, 0));
   const auto whole = used.size();
-  // The speeds first: where those are far off, nothing else can be told.
+  // Speeds first: while they are far off, no other parameter can be determined.
   Vector at = lowest({&used, &model, speeds_only(pull_some)}, each(1));
   at = lowest({&used, &model, each(pull_weak)}, at);
   used = fitting(used, model, at);

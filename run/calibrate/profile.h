@@ -8,13 +8,13 @@
 #include <string_view>
 #include <tl/expected.hpp>
 
-// How one robot drives, measured on it: `orb calibrate -o NAME`, `orb run --ball NAME`.
+// Driving parameters measured on one robot: `orb calibrate -o NAME`, `orb run --ball NAME`.
 
 namespace orb::run {
 
 inline constexpr double dead_step_ms = 1000.0 / spec::ball::control_rate;
 
-/// A number of spec::Driving that a drive can tell.
+/// A parameter of spec::Driving that a drive can determine.
 struct DrivingRow {
   std::string_view name; ///< of the row in spec/ball.def
   std::string_view unit; ///< may be empty
@@ -31,7 +31,7 @@ inline constexpr auto driving_rows = std::to_array<DrivingRow>({
     {"grip", "cm/s2", 5, 5000, &spec::Driving::grip},
     {"turn_gain", "", 0.1, 20, &spec::Driving::turn_gain},
 });
-/// A number that no drive in a room tells: kept as it is, and told nevertheless.
+/// A parameter that no drive in a room can determine: kept unchanged and still written.
 inline constexpr DrivingRow full_speed_row{"full_speed", "cm/s", 1, 2000,
                                            &spec::Driving::full_speed};
 
@@ -42,15 +42,14 @@ void set_value(spec::Driving& numbers, const DrivingRow& row, double value);
 struct Profile {
   spec::Robot robot = spec::Robot::Sphero;
   spec::Driving driving;
-  int slowest = spec::ball::slowest_driven; ///< the ordered speeds that were measured: from here,
-  int fastest = spec::ball::fastest_driven; ///< to here
+  int slowest = spec::ball::slowest_driven; ///< the lowest ordered speed measured
+  int fastest = spec::ball::fastest_driven; ///< the highest
 };
 
-/// TOML, a number a line with its unit. What is read of it is what was written, but for digits
-/// beyond the fourth.
+/// Writes TOML, one number per line with its unit. Reading it back is exact to four digits.
 std::string to_text(const Profile& profile);
 
-/// The error says which line is wrong and what to write. A row that is missing is the robot's own.
+/// The error names the line and what to write. A missing row means the robot's own value.
 tl::expected<Profile, std::string> parse_profile(std::string_view text);
 
 } // namespace orb::run

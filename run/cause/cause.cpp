@@ -23,18 +23,18 @@ using spec::Statement;
 
 using Kind = SuspectKind;
 
-// --- words --------------------------------------------------------------------------------------
+// --- wording -------------------------------------------------------------------------------------
 
 std::string range(std::int64_t least, std::int64_t greatest) {
   return greatest >= unbounded ? fmt::format("{} or more", least)
                                : fmt::format("{} to {}", least, greatest);
 }
 
-/// Of each letter the variable that the source has in its place; empty where it has none.
+/// For each letter the source variable that it holds; empty if none.
 using LetterNames =
     std::array<std::string, static_cast<std::size_t>(spec::value_of(spec::Limit::DirectVariables))>;
 
-/// What balls do with the same value that programs were shown to work on; mostly nothing.
+/// Says what other balls do with the value, on which programs rely; mostly empty.
 std::string elsewhere(const Suspect& suspect, std::int64_t value) {
   const auto is_colour = suspect.kind == Kind::Argument && suspect.statement == Statement::Rgb;
   if (!is_colour && !(suspect.turns && value < suspect.least))
@@ -47,7 +47,7 @@ std::string elsewhere(const Suspect& suspect, std::int64_t value) {
 
 class Teller {
 public:
-  /// `names` are those of a structured program; null where letters are the names.
+  /// `names` are the source names in a structured program; null if letters are the names.
   Teller(const compiler::Program& program, const compiler::Line& line, const vm::Machine* machine,
          const LetterNames* names)
       : program_(program), line_(line), statement_(program.statements[line.statement]),
@@ -71,8 +71,8 @@ private:
     return names_ == nullptr ? std::string(1, spec::letter_name(letter)) : (*names_)[letter];
   }
 
-  /// An expression as the source may have it; empty where it holds what the source does not name,
-  /// or writes otherwise.
+  /// Returns an expression in the words of the source; empty if the source has no name for a part
+  /// of it or writes it differently.
   std::string text(std::uint32_t root) const {
     if (root == none)
       return "";
@@ -100,7 +100,7 @@ private:
     return suspect.root != none && program_.nodes[suspect.root].kind == NodeKind::Number;
   }
 
-  /// The values of the letters in an expression.
+  /// Lists the letters of an expression with their values.
   std::string letters(const Suspect& suspect) const {
     std::string list;
     std::vector<std::size_t> told;
@@ -119,7 +119,8 @@ private:
     return list;
   }
 
-  /// Whether something in an expression lets it be below 0; a letter alone rather grew too large.
+  /// Returns true if an expression contains something that can make it negative. A letter alone
+  /// more likely grew too large.
   bool may_be_negative(std::uint32_t root) const {
     const auto begin = program_.nodes.begin();
     return std::any_of(begin + program_.nodes[root].first, begin + root + 1, [](const auto& node) {
@@ -130,7 +131,7 @@ private:
     });
   }
 
-  /// The expression that keeps a direction within one turn.
+  /// Wraps the expression to one turn.
   std::string turned(const Suspect& suspect, bool negative) const {
     const auto& node = program_.nodes[suspect.root];
     const bool simple = node.kind != NodeKind::Binary && node.kind != NodeKind::Call &&
@@ -143,7 +144,7 @@ private:
                : once;
   }
 
-  /// The line with another expression in place of the suspect's.
+  /// The line with the suspect's expression replaced.
   Message with(const Suspect& suspect, std::string_view expression) const {
     const auto span = program_.nodes[suspect.root].span;
     const auto before =
@@ -152,7 +153,7 @@ private:
     return texts::Write(fmt::format("{} {}{}{}", line_.number, before, expression, after));
   }
 
-  /// The line after a condition; empty where the language has no place for one.
+  /// The line with a condition in front; empty if the language does not allow one there.
   Message guarded(std::string_view condition) const {
     if (spec::info(statement_.kind).in_then == spec::InThen::Refused ||
         spec::info(statement_.kind).form == spec::Form::Loop)
@@ -161,7 +162,7 @@ private:
                                     program_.text_of(statement_.span)));
   }
 
-  /// A number for a line just before this one; nothing where none is free.
+  /// Returns a free line number just before this line; nullopt if there is none.
   std::optional<std::uint32_t> free_number() const {
     std::uint32_t before = 0;
     for (const auto& one : program_.lines)
@@ -198,7 +199,7 @@ private:
     return cause;
   }
 
-  /// A line that keeps the value from doing harm.
+  /// Returns a line to write that keeps the value in range.
   Message remedy(const Suspect& suspect, std::optional<std::int64_t> value) const {
     if (suspect.kind == Kind::Index) {
       if (value && *value > suspect.greatest)
@@ -224,7 +225,7 @@ private:
     return guarded(value ? below : fmt::format("{} and {}", above, below));
   }
 
-  /// What it may have been, where nobody saw the values.
+  /// Lists possible causes if the values are unknown.
   Cause possible(std::vector<Suspect> suspects) const {
     std::erase_if(suspects, [&](const Suspect& one) {
       return is_written_out(one) && program_.nodes[one.root].value >= one.least &&
@@ -258,7 +259,7 @@ private:
 public:
   // --- loops, calls, data ---------------------------------------------------------------------
 
-  /// `called in lines 20, 40`.
+  /// Returns for example `called in lines 20, 40`.
   Cause too_many_calls() const {
     if (machine_ == nullptr)
       return {};
@@ -283,7 +284,7 @@ public:
 
   Cause return_without_call() const {
     Cause cause{.seen = "no subroutine is open"};
-    std::uint32_t start = 0; // the nearest line above that a gosub leads to
+    std::uint32_t start = 0; // the nearest gosub target above
     for (const auto& statement : program_.statements)
       if (statement.kind == Statement::Gosub && !statement.error)
         if (const auto target = program_.as<compiler::BranchView>(statement).target.value;
@@ -378,7 +379,7 @@ Cause cause_of(const compiler::Program& program, const compiler::Line& line, Bas
 
 namespace {
 
-/// Takes over what the linter says of the line, where it knows that it stops the program so.
+/// Adds the linter's finding for the line, if its rule predicts this error.
 void add_finding(ProgramError& fault, const Input& input) {
   const auto& all = findings(input).front().diagnostics;
   const auto stops_so = [&](const Diagnostic& one) {
@@ -401,9 +402,9 @@ const compiler::Line* find_line(const compiler::Program& program, std::uint32_t 
   return line == program.lines.end() ? nullptr : &*line;
 }
 
-// --- structured programs ------------------------------------------------------------------------
+// --- structured programs -------------------------------------------------------------------------
 
-/// Where a fault is in a structured program.
+/// Sets the place of a fault in a structured program.
 void put_place(ProgramError& fault, const LineMap& lines) {
   fault.file = lines.files.front();
   const auto place = lines.places.find(fault.robot_line);
@@ -413,7 +414,7 @@ void put_place(ProgramError& fault, const LineMap& lines) {
   fault.place = {place->second.line, place->second.column};
 }
 
-/// The array that a statement uses; null where it uses none or several.
+/// Returns the array that a statement uses; null if it uses none or several.
 const structured::Symbol* only_array(const structured::Compiled& compiled,
                                      const structured::Statement& statement) {
   const structured::Symbol* found = nullptr;
@@ -433,7 +434,7 @@ const structured::Symbol* only_array(const structured::Compiled& compiled,
   return found;
 }
 
-/// The robot has one array, and a wrong index is 0 when it gets there.
+/// The robot has a single array; by the time the fault is detected, a bad index has become 0.
 Cause wrong_index(const structured::Compiled& compiled, const structured::Statement& statement) {
   const auto* array = only_array(compiled, statement);
   if (array == nullptr)
@@ -443,8 +444,7 @@ Cause wrong_index(const structured::Compiled& compiled, const structured::Statem
                               array->value)};
 }
 
-/// The cause of a fault in the words of a structured program: with its names, and without lines of
-/// the robot to write.
+/// Describes a fault in the names of a structured program, without suggesting robot lines.
 Cause structured_cause(const structured::Compiled& compiled, const compiler::Program& program,
                        const compiler::Line& line, BasicError code, const vm::Machine* machine) {
   const auto& robot = compiled.robot;

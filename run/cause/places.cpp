@@ -19,7 +19,7 @@ using spec::Statement;
 
 using Kind = SuspectKind;
 
-// --- the places of a line, in the order in which it computes them ------------------------------
+// --- places of a line, in order of evaluation ----------------------------------------------------
 
 class Places {
 public:
@@ -138,9 +138,9 @@ private:
   std::vector<Suspect> found_;
 };
 
-// --- what the machine knows ---------------------------------------------------------------------
+// --- what the machine knows ----------------------------------------------------------------------
 
-/// The place that an instruction is; nothing where it cannot fail by a value.
+/// Returns the place that an instruction implements; nullopt if no value can make it fail.
 std::optional<Suspect> place_of(const bytecode::Instruction& instruction) {
   const auto argument_of = [](Statement statement) {
     return Suspect{.kind = Kind::Argument, .statement = statement};
@@ -160,8 +160,8 @@ std::optional<Suspect> place_of(const bytecode::Instruction& instruction) {
   return std::nullopt;
 }
 
-/// The value of the place that stopped the machine; of a statement, its first bad argument, whose
-/// number is put into `at`.
+/// Returns the value that stopped the machine. For a statement, the first bad argument, whose
+/// number goes into `at`.
 std::int64_t value_of(const vm::Core& core, const bytecode::Instruction& instruction, Suspect& at) {
   const auto& r = core.registers;
   switch (at.kind) {
@@ -206,7 +206,7 @@ std::optional<Stopped> where(const vm::Machine& machine, BasicError error) {
   if (place && raises(place->kind, error))
     stopped.at = *place;
   else if (error == BasicError::IllegalIndex)
-    stopped.at.kind = Kind::Index; // whatever touches Z
+    stopped.at.kind = Kind::Index; // any access to Z
   else
     return std::nullopt;
   for (std::uint32_t i = line->begin; i < code.size() && line_of(core.chunk, i) == line; ++i)

@@ -9,14 +9,14 @@
 #include <string>
 #include <vector>
 
-// Where in a line a value can stop the program, and which one did.
+// Finds where in a line a value can stop the program, and where one did.
 
 namespace orb::run {
 
-/// Above it there is no bound.
+/// Stands for no upper bound.
 inline constexpr std::int64_t unbounded = INT32_MAX;
 
-/// What can be wrong with a number.
+/// Kinds of values that can be wrong.
 enum class SuspectKind : std::uint8_t {
   Argument,
   Operand,
@@ -31,37 +31,37 @@ enum class SuspectKind : std::uint8_t {
 /// A place in a line whose value can stop the program.
 struct Suspect {
   SuspectKind kind = SuspectKind::Argument;
-  spec::Statement statement{}; ///< it is an argument of
-  std::size_t argument = 0;    ///< which
+  spec::Statement statement{}; ///< the statement, for an argument
+  std::size_t argument = 0;    ///< index of the argument
   spec::Function function{};
   std::string name = {};
   std::int64_t least = 0;
   std::int64_t greatest = 0;
-  bool turns = false;                  ///< a direction: one turn more is the same
-  std::uint32_t root = compiler::none; ///< of its expression
+  bool turns = false;                  ///< a direction: a full turn makes no difference
+  std::uint32_t root = compiler::none; ///< root node of its expression
 };
 
-/// The place that a stopped machine was at, and the value there.
+/// The place and value that stopped a machine.
 struct Stopped {
-  Suspect at; ///< as far as an instruction tells: kind, statement, argument, function
+  Suspect at; ///< as far as the instruction tells: kind, statement, argument, function
   std::int64_t value = 0;
-  std::size_t before = 0; ///< such places of the line that it had passed
-  std::size_t all = 0;    ///< that the line has
+  std::size_t before = 0; ///< number of such places that the line had passed
+  std::size_t all = 0;    ///< number of such places in the line
 };
 
-/// Those of a statement and its branches, in the order in which the line computes them.
+/// Returns the places of a statement and its branches in order of evaluation.
 std::vector<Suspect> places_of(const compiler::Program& program,
                                const compiler::StatementNode& statement);
 
-/// Which place has stopped the machine; nothing where no value did.
+/// Returns the place that stopped the machine; nullopt if no value did.
 std::optional<Stopped> where(const vm::Machine& machine, spec::BasicError error);
 
-/// Whether a bad value at a place of that kind raises `error`.
+/// Returns true if a bad value at a place of that kind raises `error`.
 bool raises(SuspectKind kind, spec::BasicError error);
 
 bool same_place(const Suspect& a, const Suspect& b);
 
-/// The line that an instruction belongs to; null where it belongs to none.
+/// Returns the line of an instruction; null if it has none.
 const bytecode::Line* line_of(const bytecode::Chunk& chunk, std::uint32_t index);
 
 } // namespace orb::run

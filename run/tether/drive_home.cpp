@@ -11,15 +11,15 @@ namespace {
 
 constexpr double near_cm = 6;
 constexpr Duration patience = 20s;
-constexpr Duration no_progress = 3s; ///< as long it may come no nearer
+constexpr Duration no_progress = 3s; ///< longest time without getting closer
 constexpr double progress_cm = 2;
-constexpr Duration turn = 1500ms; ///< for the turn at the end
+constexpr Duration turn = 1500ms; ///< for the final turn
 
 double distance(const vm::Sample& sample) {
   return std::hypot(sample.place_cm.x, sample.place_cm.y);
 }
 
-/// Toward 0,0: the nearer, the slower, since it rolls on.
+/// Drives toward 0,0. Slows down on approach, because the robot rolls on.
 vm::Roll toward_home(const vm::Sample& sample) {
   constexpr double slowest = 25;
   constexpr double fastest = 60;
@@ -35,7 +35,7 @@ bool rests(const vm::Sample& sample) {
   return std::hypot(sample.velocity_cm_s.x, sample.velocity_cm_s.y) < crawl_cm_s;
 }
 
-/// Follows the samples until it lies near 0,0.
+/// Drives by its samples until the robot rests near 0,0.
 tl::expected<Home, Failure> approach(Tether& robot, vm::Sample sample) {
   const auto until = robot.now() + patience;
   double nearest = distance(sample);
@@ -51,7 +51,7 @@ tl::expected<Home, Failure> approach(Tether& robot, vm::Sample sample) {
       robot.obey(vm::Roll{toward_home(sample).heading_deg, 0, vm::Go::Brake});
       braked = true;
     }
-    const auto hear = [&](const Said& said) {
+    const auto hear = [&](const RobotMessage& said) {
       if (const auto* felt = std::get_if<vm::Sample>(&said.what))
         sample = *felt;
     };
@@ -78,7 +78,7 @@ tl::expected<Home, Failure> drive_home(protocol::Transport& transport,
   if (home == Home::Reached) {
     robot.obey(vm::Roll{0, 0, vm::Go::Drive});
     for (const auto until = robot.now() + turn; robot.now() < until;)
-      if (auto pumped = robot.pump(until, [](const Said&) {}); !pumped)
+      if (auto pumped = robot.pump(until, [](const RobotMessage&) {}); !pumped)
         return tl::unexpected(pumped.error());
   }
   robot.finish();

@@ -7,14 +7,14 @@
 
 namespace orb::run {
 
-/// Whether a robot is back where its last run began, facing as it did then.
+/// Reached: the robot is back where its last run began, facing as it did then.
 enum class Home : std::uint8_t {
   Reached,
-  Missed, ///< something stands in its way, or it was not there in time
+  Missed, ///< something blocks the way, or time ran out
 };
 
-/// Drives the robot slowly to the place that its last run began at and turns it to where it faced
-/// then. However it ends, the robot has been told to stop.
+/// Drives the robot slowly to the place where its last run began and turns it to the direction it
+/// faced then. Sends a stop whatever the result.
 tl::expected<Home, Failure> drive_home(protocol::Transport& transport, const TetherOptions& tether);
 
 } // namespace orb::run

@@ -6,7 +6,7 @@
 namespace orb::run {
 namespace {
 
-/// How long the program may be behind the link: a reaction takes no longer than this.
+/// Limits how far the program may lag behind the link, and thereby its reaction time.
 constexpr Duration shortest_nap = 2ms;
 
 } // namespace
@@ -16,7 +16,7 @@ void bring(Live& live, Duration t) {
   live.wait(t);
 }
 
-void feel(Live& live, const Said& said) {
+void feel(Live& live, const RobotMessage& said) {
   if (const auto* sample = std::get_if<vm::Sample>(&said.what))
     live.feel(*sample);
   else if (const auto* collision = std::get_if<vm::event::Collision>(&said.what))
@@ -25,9 +25,9 @@ void feel(Live& live, const Said& said) {
     live.apply(*battery);
 }
 
-std::function<void(const Said&)> Driven::hear() {
-  return [this](const Said& said) {
-    if (!over_) // the time of the program ends with it
+std::function<void(const RobotMessage&)> Driven::hear() {
+  return [this](const RobotMessage& said) {
+    if (!over_) // the program's time has ended
       bring(live_, elapsed());
     if (const auto* sample = std::get_if<vm::Sample>(&said.what))
       note(*sample);
@@ -43,22 +43,22 @@ Duration Driven::nap() const {
   return std::clamp(live_.next_event() - elapsed(), shortest_nap, longest_nap);
 }
 
-tl::expected<Driven::Course, Failure> Driven::step() {
+tl::expected<Driven::Progress, Failure> Driven::step() {
   if (robot_.is_stale() || paused_at_) {
     if (auto back = sit_out(); !back)
       return tl::unexpected(back.error());
-    return Course::GoesOn;
+    return Progress::GoesOn;
   }
   if (!live_.advance(elapsed())) {
     if (!live_.waits_for_number() || !listener_.has_more_numbers())
-      return Course::Ends;
+      return Progress::Ends;
     if (const auto number = listener_.ask_number())
       live_.give(*number);
     live_.wait(elapsed());
   }
   if (auto pumped = robot_.pump(robot_.now() + nap(), hear()); !pumped)
     return tl::unexpected(pumped.error());
-  return Course::GoesOn;
+  return Progress::GoesOn;
 }
 
 void Driven::end() {
@@ -71,7 +71,7 @@ void Driven::note(decltype(DriveLine::what) what) {
     options_.recording->lines.push_back({live_.time(), std::move(what)});
 }
 
-/// Waits for samples; the program waits with it.
+/// Waits for samples while the program's time stands still.
 tl::expected<void, Failure> Driven::sit_out() {
   if (!paused_at_) {
     paused_at_ = elapsed();
@@ -79,7 +79,7 @@ tl::expected<void, Failure> Driven::sit_out() {
       options_.note(std::string(samples_gone));
   }
   if (auto pumped = robot_.pump(robot_.now() + longest_nap,
-                                [](const Said&) {}); // what comes first counts from then on
+                                [](const RobotMessage&) {}); // news received meanwhile is dropped
       !pumped)
     return pumped;
   if (robot_.is_stale())

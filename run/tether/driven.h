@@ -10,33 +10,33 @@
 
 namespace orb::run {
 
-/// How long a run waits at most before it looks at its link again.
+/// The longest wait of a run before it polls its link.
 inline constexpr Duration longest_nap = 20ms;
 
-/// Lets a run know what the robot says; its time is that of the link.
-void feel(Live& live, const Said& said);
+/// Passes news from the robot to a run; the run's time is that of the link.
+void feel(Live& live, const RobotMessage& said);
 
-/// Brings a run to `t`, whatever it waits for.
+/// Advances a run to `t`, whatever it waits for.
 void bring(Live& live, Duration t);
 
-/// A run and the robot that it drives. All that is handed in outlives it.
+/// A run and the robot it drives. All arguments must outlive it.
 class Driven {
 public:
   Driven(Live& live, Tether& robot, Listener& listener, const TetherOptions& options)
       : live_(live), robot_(robot), listener_(listener), options_(options),
         origin_(robot.program_now()) {}
 
-  /// Whether the run has more to do.
-  enum class Course : std::uint8_t { GoesOn, Ends };
-  /// Brings the run to the time of the link, sends what is due and waits a little for news; over a
-  /// link that never waits it comes back at once. Fails where the robot cannot be driven on.
-  tl::expected<Course, Failure> step();
-  /// From now on the time of the program stands still: what the robot says is how it came to rest.
+  /// GoesOn: the run has more to do.
+  enum class Progress : std::uint8_t { GoesOn, Ends };
+  /// Advances the run to the time of the link, sends what is due and waits briefly for news;
+  /// returns at once on a link that never waits. Fails if the robot can no longer be driven.
+  tl::expected<Progress, Failure> step();
+  /// Stops the program's time: later samples show how the robot came to rest.
   void end();
 
-  /// Takes what the robot says after the run.
-  std::function<void(const Said&)> hear();
-  /// How long nothing happens by itself.
+  /// Returns a handler for news after the run.
+  std::function<void(const RobotMessage&)> hear();
+  /// The time until the next event.
   Duration nap() const;
 
 private:
@@ -49,7 +49,7 @@ private:
   Listener& listener_;
   const TetherOptions& options_;
   Instant origin_;
-  std::optional<Duration> paused_at_; ///< samples stay away, and the program waits with them
+  std::optional<Duration> paused_at_; ///< samples are missing, and the program waits for them
   bool over_ = false;
 };
 

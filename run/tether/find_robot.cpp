@@ -19,7 +19,7 @@ Failure lost(const LinkError& error) {
   return {ExitCode::NoBall, error.message};
 }
 
-/// Whether a robot that knows these commands of a device can be that one.
+/// Returns true if the commands listed for a device are those of this robot.
 bool fits(const spec::RobotInfo& robot, std::uint8_t did, const Bytes& commands) {
   return std::all_of(spec::v2_commands.begin(), spec::v2_commands.end(),
                      [&](const spec::V2CommandInfo& row) {
@@ -65,7 +65,7 @@ tl::expected<std::vector<spec::Robot>, Failure> fitting_robots(protocol::Transpo
     if (row.packets == spec::Packets::V2)
       left.push_back(row.robot);
   int answers = 0;
-  TalkV2 talk(transport, spec::info(left.front())); // what it is asked is the same for all
+  TalkV2 talk(transport, spec::info(left.front())); // the questions are the same for all robots
   for (const auto did :
        {std::uint8_t{0x13}, std::uint8_t{0x17}, std::uint8_t{0x18}, std::uint8_t{0x1A}}) {
     const auto answer = talk.ask(spec::V2Command::GetCommandIds, {did});

@@ -7,26 +7,25 @@
 #include <tl/expected.hpp>
 #include <vector>
 
-// Which robot answers, where its name does not tell.
+// Identifies the robot that answers when its name does not.
 
 namespace orb::run {
 
-/// Of packets v1 or v2 and, of those, which by the commands that it knows. The failure says what
-/// helps.
+/// Distinguishes v1 and v2 by their packets, and robots of v2 by their commands. The failure says
+/// what helps.
 tl::expected<spec::Robot, Failure> find_robot(protocol::Transport& transport, Duration patience);
 
-/// Which packets are answered: pings of both kinds are sent until one is.
+/// Finds out which packets are answered: sends pings of both kinds until one is.
 tl::expected<spec::Packets, Failure> find_packets(protocol::Transport& transport,
                                                   Duration patience);
 
-/// The same as find_robot() where it is known that packets v2 are spoken.
+/// As find_robot(), for a robot known to speak v2.
 tl::expected<spec::Robot, Failure> find_newer_robot(protocol::Transport& transport);
 
-/// All robots of packets v2 that the one that answers can be, by the commands that it knows; one at
-/// least.
+/// Returns all v2 robots consistent with the commands of the one that answers; at least one.
 tl::expected<std::vector<spec::Robot>, Failure> fitting_robots(protocol::Transport& transport);
 
-/// The one robot of a list; the failure of a longer one says how the user tells which.
+/// Returns the only robot of a list. For longer lists the failure says how the user selects one.
 tl::expected<spec::Robot, Failure> only_one(const std::vector<spec::Robot>& robots);
 
 } // namespace orb::run

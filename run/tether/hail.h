@@ -10,21 +10,21 @@
 
 namespace orb::run {
 
-/// A link of which nobody knows yet which packets are spoken there. What is asked in packets v1
-/// goes out as it is; only where nothing has answered it for a while, a ping of packets v2 follows.
+/// A link whose packet version is still unknown. Passes v1 requests through unchanged; if nothing
+/// answers for a while, adds a v2 ping.
 class Hail final : public protocol::Transport {
 public:
   /// `link` must outlive it.
   explicit Hail(protocol::Transport& link) : link_(link) {}
 
   Instant now() const override { return link_.now(); }
-  /// Once a robot of packets v2 has answered, writing and reading are errors: Unfit.
+  /// Once a v2 robot has answered, writing and reading fail with Unfit.
   tl::expected<void, protocol::LinkError> write(ByteView bytes) override;
   tl::expected<Bytes, protocol::LinkError> read(Instant deadline) override;
 
-  /// What was answered first; nothing as long as nothing was.
+  /// The packet version of the first answer; nullopt if there was none.
   const std::optional<spec::Packets>& answered() const { return answered_; }
-  /// What was sent came back as it was, and nothing else did.
+  /// Returns true if the link only returned what was sent.
   bool echoes() const { return echoes_ && !answered_; }
 
 private:
@@ -35,7 +35,7 @@ private:
   protocol::Decoder v1_{protocol::Direction::FromBall};
   protocol::DecoderV2 v2_;
   std::optional<spec::Packets> answered_;
-  Instant ping_at_ = never; ///< of packets v2, unless something answers before
+  Instant ping_at_ = never; ///< next v2 ping, if nothing answers first
   bool echoes_ = false;
 };
 

@@ -7,9 +7,9 @@
 namespace orb::run {
 namespace {
 
-class Held final : public HeldRobot {
+class TetheredRobot final : public HeldRobot {
 public:
-  Held(protocol::Transport& transport, const TetherOptions& options)
+  TetheredRobot(protocol::Transport& transport, const TetherOptions& options)
       : options_(options), robot_(transport, options.robot, options.budgets) {}
 
   tl::expected<void, Failure> begin() {
@@ -42,7 +42,7 @@ public:
         was_stale ? longest_nap : std::clamp<Duration>(until - elapsed(), 1ms, longest_nap);
     if (auto pumped = robot_.pump(
             robot_.now() + nap,
-            [&](const Said& said) {
+            [&](const RobotMessage& said) {
               if (const auto* sample = std::get_if<vm::Sample>(&said.what))
                 felt.emplace_back(*sample);
               else if (const auto* collision = std::get_if<vm::event::Collision>(&said.what))
@@ -59,7 +59,7 @@ public:
 private:
   Duration elapsed() const { return robot_.program_now() - origin_; }
 
-  /// Without samples the run waits, too.
+  /// Stops the run's time while samples are missing.
   void watch(bool was_stale) {
     if (robot_.is_stale() == was_stale)
       return;
@@ -82,7 +82,7 @@ private:
 
 tl::expected<std::unique_ptr<HeldRobot>, Failure> hold_robot(protocol::Transport& transport,
                                                              const TetherOptions& tether) {
-  auto held = std::make_unique<Held>(transport, tether);
+  auto held = std::make_unique<TetheredRobot>(transport, tether);
   if (auto begun = held->begin(); !begun)
     return tl::unexpected(begun.error());
   return held;

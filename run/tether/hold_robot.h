@@ -8,7 +8,7 @@
 
 namespace orb::run {
 
-/// Readies the robot at the other end of `transport`, which must outlive it, and holds it.
+/// Prepares the robot at the other end of `transport`, which must outlive it, and holds it.
 tl::expected<std::unique_ptr<HeldRobot>, Failure> hold_robot(protocol::Transport& transport,
                                                              const TetherOptions& tether);
 

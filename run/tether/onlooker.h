@@ -10,31 +10,31 @@
 
 namespace orb::run {
 
-/// Sees what a classic ball says of itself while a program that runs on it drives it, and tells it
-/// to a journey: the way, sensors, prints, errors. Its colour it does not say (API §Get RGB LED is
-/// the one that its owner chose).
-class Onlooker final : vm::Observer, vm::Elsewhere {
+/// Records in a journey what a classic ball reports while it runs its own program: path, sensors,
+/// prints, errors. The colour is missing, because the ball does not report it (API §Get RGB LED
+/// returns the one that its owner chose).
+class Onlooker final : vm::Observer, vm::RemoteBody {
 public:
   /// The journey must outlive it.
   explicit Onlooker(report::Journey& journey);
 
-  /// What lets the ball say what it feels, and what silences it; no request moves it.
+  /// Requests that make the ball report its sensors, and that silence it. None of them moves it.
   std::vector<Request> stream() { return wire_->stream({}); }
   std::vector<Request> silence() const { return wire_->silence(); }
 
-  /// A message that came `t` after the beginning.
+  /// Takes a message that arrived `t` after the beginning.
   void hear(Duration t, const protocol::Async& message);
 
 private:
   void on_event(Instant at, const vm::Event& event) override;
-  void obey(const vm::Motion&) override {} // it drives by itself
+  void obey(const vm::Motion&) override {} // the ball drives itself
   void show(vm::Color) override {}
   void show_back(int) override {}
-  void feel(Duration t, const Said& said);
+  void feel(Duration t, const RobotMessage& said);
 
   report::Journey& journey_;
   std::unique_ptr<RobotWire> wire_;
-  vm::Ball ball_; ///< one that does what the ball says that it did
+  vm::Ball ball_; ///< mirrors what the real ball reports
 };
 
 } // namespace orb::run

@@ -19,10 +19,6 @@ constexpr int speed_step = 20;
 constexpr int fastest = 255;
 constexpr int lamp_level = 255;
 
-int on_circle(int deg) {
-  return (deg % spec::ball::full_circle + spec::ball::full_circle) % spec::ball::full_circle;
-}
-
 std::string side(double cm, std::string_view plus, std::string_view minus) {
   return fmt::format("{:.0f} cm {}", std::abs(cm), cm < 0 ? minus : plus);
 }
@@ -33,11 +29,11 @@ void Pilot::press(Key key) {
   switch (key) {
   case Key::Faster: speed_ = std::min(speed_ + speed_step, fastest); break;
   case Key::Slower: speed_ = std::max(speed_ - speed_step, 0); break;
-  case Key::Left: heading_ = on_circle(heading_ - turn_deg); break;
-  case Key::Right: heading_ = on_circle(heading_ + turn_deg); break;
+  case Key::Left: heading_ = vm::whole_heading(heading_ - turn_deg); break;
+  case Key::Right: heading_ = vm::whole_heading(heading_ + turn_deg); break;
   case Key::Stop: return stop();
-  case Key::Ahead: // where it faces now
-    ahead_ = on_circle(static_cast<int>(std::lround(sample_.yaw_deg)));
+  case Key::Ahead: // the direction it faces now
+    ahead_ = vm::whole_heading(sample_.yaw_deg);
     heading_ = 0;
     break;
   case Key::Color:
@@ -50,7 +46,7 @@ void Pilot::press(Key key) {
 }
 
 void Pilot::steer(int heading_deg, int speed, Duration lasts) {
-  heading_ = on_circle(heading_deg);
+  heading_ = vm::whole_heading(heading_deg);
   speed_ = std::clamp(speed, 0, fastest);
   obey(lasts);
 }
@@ -58,7 +54,7 @@ void Pilot::steer(int heading_deg, int speed, Duration lasts) {
 void Pilot::obey(Duration lasts) {
   if (speed_ == 0 && stops_at_)
     return stop();
-  robot_.obey(vm::Roll{on_circle(heading_ + ahead_), speed_, vm::Go::Drive});
+  robot_.obey(vm::Roll{vm::whole_heading(heading_ + ahead_), speed_, vm::Go::Drive});
   if (speed_ > 0)
     stops_at_ = robot_.now() + lasts;
 }
@@ -66,7 +62,7 @@ void Pilot::obey(Duration lasts) {
 void Pilot::stop() {
   speed_ = 0;
   stops_at_.reset();
-  robot_.obey(vm::Roll{on_circle(heading_ + ahead_), 0, vm::Go::Brake});
+  robot_.obey(vm::Roll{vm::whole_heading(heading_ + ahead_), 0, vm::Go::Brake});
 }
 
 void Pilot::show(vm::Color color) {
@@ -74,7 +70,7 @@ void Pilot::show(vm::Color color) {
   matrix_.fill(color);
 }
 
-/// After what it is to show already, so that lamps painted one after the other all arrive.
+/// Queued, so that lamps painted in quick succession all arrive.
 void Pilot::tell_matrix(spec::V2Command command, Bytes data) {
   const auto& row = spec::info(command);
   robot_.send_soon({row.did(), row.cid(), std::move(data), Request::Need::Try});
@@ -113,7 +109,7 @@ void Pilot::clear_matrix() {
   matrix_.clear();
 }
 
-void Pilot::hear(const Said& said) {
+void Pilot::hear(const RobotMessage& said) {
   if (const auto* sample = std::get_if<vm::Sample>(&said.what))
     sample_ = *sample;
   else if (const auto* battery = std::get_if<vm::stimulus::Battery>(&said.what))
@@ -133,7 +129,7 @@ std::string Pilot::words() const {
                           side(sample_.place_cm.y, "ahead", "behind"),
                           side(sample_.place_cm.x, "right", "left"),
                           std::hypot(sample_.velocity_cm_s.x, sample_.velocity_cm_s.y),
-                          sample_.yaw_deg, on_circle(heading_ + ahead_), speed_);
+                          sample_.yaw_deg, vm::whole_heading(heading_ + ahead_), speed_);
   if (blows_ > 0)
     text += fmt::format(", {} bump{}", blows_, blows_ == 1 ? "" : "s");
   if (battery_)

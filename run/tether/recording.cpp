@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::string_view schema = "orb.drive/1";
 
-/// The numbers of a sample, in the order of the file.
+/// The numbers of a sample, in file order.
 template <class Sample>
 auto numbers_of(Sample& s) {
   return std::array{&s.place_cm.x,       &s.place_cm.y,       &s.velocity_cm_s.x,
@@ -39,7 +39,7 @@ std::string words_of(const vm::Sample& sample) {
   return text;
 }
 
-/// The words of a line, one after the other.
+/// Splits a line into words.
 class Words {
 public:
   explicit Words(std::string_view line) : rest_(line) {}
@@ -78,7 +78,7 @@ bool read_what(std::string_view kind, Words& words, DriveLine& line) {
   if (kind == "sample")
     return read_sample(words, line.what.emplace<vm::Sample>());
   if (kind == "told") {
-    line.what = DriveLine::Told{std::string(words.rest())};
+    line.what = DriveLine::SentCommand{std::string(words.rest())};
     return true;
   }
   if (kind == "over") {
@@ -97,7 +97,7 @@ bool read_what(std::string_view kind, Words& words, DriveLine& line) {
   return true;
 }
 
-/// The first lines and the last, which say of the run as a whole.
+/// Parses the first and last lines, which describe the whole run.
 bool read_whole(std::string_view kind, Words& words, DriveRecording& recording) {
   if (kind == "robot") {
     const auto* robot = spec::find_robot(words.next());
@@ -127,8 +127,8 @@ std::string to_text(const DriveRecording& recording) {
     text += fmt::format("{} ", at.count());
     if (const auto* sample = std::get_if<vm::Sample>(&what))
       text += "sample" + words_of(*sample);
-    else if (const auto* told = std::get_if<DriveLine::Told>(&what))
-      text += "told " + told->words;
+    else if (const auto* command = std::get_if<DriveLine::SentCommand>(&what))
+      text += "told " + command->words;
     else if (const auto* battery = std::get_if<vm::stimulus::Battery>(&what))
       text += fmt::format("battery {}", battery->volts);
     else if (const auto* number = std::get_if<DriveLine::Number>(&what))

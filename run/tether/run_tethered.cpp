@@ -15,13 +15,13 @@ struct Nobody final : Listener {
   void on_fault(Duration, const ProgramError&) override {}
 };
 
-/// Hands everything on, and notes the numbers that were given.
+/// Forwards everything and records the numbers given.
 class Tap final : public Listener {
 public:
   Tap(Listener& inner, std::function<void(std::int32_t)> on_number)
       : inner_(&inner), on_number_(std::move(on_number)) {}
 
-  /// Nobody is told anything any more: whoever hears it has thrown.
+  /// Stops forwarding, because the inner listener has thrown.
   void close() { inner_ = &nobody_; }
 
   void on_start(const vm::Ball& ball) override { inner_->on_start(ball); }
@@ -42,16 +42,16 @@ public:
 private:
   Nobody nobody_;
   Listener* inner_;
-  std::function<void(std::int32_t)> on_number_; ///< empty: numbers come from elsewhere
+  std::function<void(std::int32_t)> on_number_; ///< empty: numbers come from another source
 };
 
-/// `roll 90 60 1` at 0.400 s
-std::string in_words(const DriveLine& told) {
-  return fmt::format("`{}` at {:.6f} s", std::get<DriveLine::Told>(told.what).words,
-                     std::chrono::duration<double>(told.at).count());
+/// Returns for example `roll 90 60 1` at 0.400 s.
+std::string drive_words(const DriveLine& command) {
+  return fmt::format("`{}` at {:.6f} s", std::get<DriveLine::SentCommand>(command.what).words,
+                     std::chrono::duration<double>(command.at).count());
 }
 
-/// That a robot may still drive belongs to what happened.
+/// Reports that the robot may still be driving.
 void tell_stop(Listener& listener, report::Journey* journey, Duration t, bool stopped) {
   if (stopped)
     return;
@@ -89,10 +89,10 @@ tl::expected<TetheredEnding, Failure> run_tethered(std::span<const Input> inputs
     if (tether.recording != nullptr)
       tether.recording->lines.push_back({running == nullptr ? Duration{} : running->time(), what});
   };
-  bool over = false; // what the lamps show afterwards is not the program's
+  bool over = false; // later changes of the lamps are not the program's
   Witness witness(&robot, [&](std::string words) {
     if (!over)
-      note(DriveLine::Told{std::move(words)});
+      note(DriveLine::SentCommand{std::move(words)});
   });
   Tap tap(listener, [&](std::int32_t number) { note(DriveLine::Number{number}); });
   if (tether.recording != nullptr) {
@@ -120,7 +120,7 @@ tl::expected<TetheredEnding, Failure> run_tethered(std::span<const Input> inputs
   Driven run(**live, robot, tap, tether);
   std::optional<Failure> failure;
   const auto driven = contain([&]() -> tl::expected<void, Failure> {
-    for (auto course = run.step(); course != Driven::Course::Ends; course = run.step())
+    for (auto course = run.step(); course != Driven::Progress::Ends; course = run.step())
       if (!course)
         return tl::unexpected(course.error());
     return {};
@@ -170,7 +170,7 @@ tl::expected<TetheredEnding, Failure> run_replayed(std::span<const Input> inputs
   std::string left;
   auto next = recording.lines.begin();
   const auto is_told = [](const DriveLine& line) {
-    return std::holds_alternative<DriveLine::Told>(line.what);
+    return std::holds_alternative<DriveLine::SentCommand>(line.what);
   };
   const auto differ = [&](const std::string& asked, const std::string& recorded) {
     if (!left.empty())
@@ -193,8 +193,9 @@ tl::expected<TetheredEnding, Failure> run_replayed(std::span<const Input> inputs
       return;
     next = std::find_if(next, recording.lines.end(), is_told);
     const auto at = running == nullptr ? Duration{} : running->time();
-    const auto said = next == recording.lines.end() ? std::string("nothing more") : in_words(*next);
-    if (const auto asked = in_words({at, DriveLine::Told{words}}); asked != said)
+    const auto said =
+        next == recording.lines.end() ? std::string("nothing more") : drive_words(*next);
+    if (const auto asked = drive_words({at, DriveLine::SentCommand{words}}); asked != said)
       differ(asked, said);
     if (next != recording.lines.end())
       ++next;
@@ -231,8 +232,8 @@ tl::expected<TetheredEnding, Failure> run_replayed(std::span<const Input> inputs
   if (left.empty())
     if (const auto more = std::find_if(next, recording.lines.end(), is_told);
         more != recording.lines.end())
-      left =
-          fmt::format("the program ends before the recording, which has {} next", in_words(*more));
+      left = fmt::format("the program ends before the recording, which has {} next",
+                         drive_words(*more));
   tell_stop(tap, journey, running->time(), recording.stopped || !left.empty());
   auto ending = running->finish();
   if (!ending)

@@ -10,41 +10,42 @@
 #include <span>
 #include <string>
 
-// A run on a robot: the program runs here, the robot is its body (docs/robots.md).
+// A run on a robot: the program runs here, with the robot as its body (docs/using/robots.md).
 
 namespace orb::run {
 
-/// What a run on a robot needs beyond its program.
+/// Options of a run on a robot.
 struct TetherOptions {
   spec::Robot robot = spec::Robot::Sphero;
   Aim aim = Aim::Zero;
   TetherBudgets budgets;
-  /// Opens the link once more after it was lost; null where it cannot be.
+  /// Reopens a lost link; null if that is impossible.
   std::function<std::unique_ptr<protocol::Transport>()> reopen;
-  /// What happens is noted here; null for nobody.
+  /// Records the run; may be null.
   DriveRecording* recording = nullptr;
-  /// The program starts now: what is to happen to a virtual robot counts from here. May be null.
+  /// Called when the program starts: events scheduled for a virtual robot count from here. May be
+  /// null.
   std::function<void()> begins;
-  /// Hears sentences for people while it goes on.
+  /// Receives sentences for people during the run.
   std::function<void(const std::string&)> note;
 };
 
 struct TetheredEnding {
   Ending ending;
-  std::optional<Failure> failure;          ///< why the run could not go on to its end
-  spec::Robot robot = spec::Robot::Sphero; ///< which drove
-  std::string left; ///< of a replay: where the program asked for something else; empty where not
+  std::optional<Failure> failure;          ///< why the run could not reach its end
+  spec::Robot robot = spec::Robot::Sphero; ///< the robot that drove
+  std::string left; ///< where a replay deviated from the recording; empty if it did not
 };
 
 /// Runs the first program here, with the robot at the other end of `transport` as its body and the
-/// time of the link as its time. However the run ends, the robot has been told to stop; whether it
-/// has acknowledged that is in the ending. Fails where the run never began.
+/// link's time as its time. Sends a stop however the run ends; the ending says whether it was
+/// acknowledged. Fails if the run never began.
 tl::expected<TetheredEnding, Failure>
 run_tethered(std::span<const Input> inputs, const Options& options, Listener& listener,
              report::Journey* journey, protocol::Transport& transport, const TetherOptions& tether);
 
-/// Runs the first program here with what was recorded as its robot: prints, trace and report are
-/// those of the recorded run. Where the program asks for something else, it ends.
+/// Runs the first program here with a recording as its robot: prints, trace and report equal those
+/// of the recorded run. Ends if the program deviates.
 tl::expected<TetheredEnding, Failure> run_replayed(std::span<const Input> inputs,
                                                    const Options& options, Listener& listener,
                                                    report::Journey* journey,

@@ -6,15 +6,15 @@
 
 namespace orb::run {
 
-/// What a robot is asked to stream besides where it is, how fast and how it lies: a link carries
-/// the more samples, the smaller they are.
+/// What a robot streams besides place, velocity and attitude angles. Smaller samples let a link
+/// carry more of them.
 struct Streamed {
   bool acceleration = true;
-  bool rotation = true; ///< the rates of turning
-  bool attitude = true; ///< as a quaternion, where the robot has one to tell
+  bool rotation = true; ///< rotation rates
+  bool attitude = true; ///< as a quaternion, if the robot has one
 };
 
-/// What the programs among the inputs read.
+/// Returns the sensors that the programs among the inputs read.
 Streamed read_by(std::span<const Input> inputs);
 
 } // namespace orb::run

@@ -7,7 +7,7 @@
 namespace orb::run {
 namespace {
 
-bool is(const protocol::PacketV2& packet, spec::V2Message message) {
+bool has_message(const protocol::PacketV2& packet, spec::V2Message message) {
   return packet.seq == spec::v2_message_seq &&
          (packet.did << 8 | packet.cid) == static_cast<int>(message);
 }
@@ -32,9 +32,9 @@ tl::expected<protocol::PacketV2, Failure> TalkV2::ask(spec::V2Command command, B
       while (auto item = decoder.next()) {
         if (item->kind != protocol::ItemV2::Kind::Packet)
           continue;
-        asleep_ = is(item->packet, spec::V2Message::DidSleep);
+        asleep_ = has_message(item->packet, spec::V2Message::DidSleep);
         const auto& row = spec::info(command);
-        // A late answer to somebody else may have the same number.
+        // A late answer to another request may have the same number.
         if (item->packet.seq == seq_ && item->packet.did == row.did() &&
             item->packet.cid == row.cid() &&
             spec::has(item->packet.flags, spec::V2Flag::Response)) {

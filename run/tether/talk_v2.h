@@ -10,17 +10,17 @@
 
 namespace orb::run {
 
-/// A conversation with a robot of packets v2, one request at a time.
+/// A conversation with a v2 robot, one request at a time.
 class TalkV2 {
 public:
   TalkV2(protocol::Transport& link, const spec::RobotInfo& robot) : link_(link), robot_(robot) {}
 
-  /// Sends until it is answered, three times at most: every command but those that move it does no
-  /// harm twice, and those that move it end by themselves. The answer may be a refusal. Fails where
-  /// none came.
+  /// Sends a request up to three times until it is answered. Repeating is harmless for all commands
+  /// but those that move the robot, and motion ends by itself. The answer may be a refusal. Fails
+  /// if none came.
   tl::expected<protocol::PacketV2, Failure> ask(spec::V2Command command, Bytes data = {});
 
-  /// The same, and a refusal is a failure that names it and what helps.
+  /// As ask(), but a refusal is a failure that names the command and what helps.
   tl::expected<protocol::PacketV2, Failure> request(spec::V2Command command, Bytes data = {});
 
 private:
@@ -29,7 +29,7 @@ private:
   protocol::Transport& link_;
   const spec::RobotInfo& robot_;
   std::uint8_t seq_ = 0;
-  bool asleep_ = false; ///< it has said so, and nothing since
+  bool asleep_ = false; ///< it has reported sleep, and nothing since
 };
 
 } // namespace orb::run

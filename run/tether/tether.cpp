@@ -18,13 +18,7 @@ bool is_driving(const vm::Motion& motion) {
   return false;
 }
 
-/// As a roll has it: 0..359.
-int on_circle(double deg) {
-  constexpr int circle = 360;
-  return (static_cast<int>(std::lround(deg)) % circle + circle) % circle;
-}
-
-/// A longer wait than was asked for is no link that is slow, but a computer that slept.
+/// A wait that overruns by more than this is a computer that slept, not a slow link.
 constexpr Duration longest_wait = 200ms;
 
 } // namespace
@@ -36,7 +30,7 @@ Tether::Tether(protocol::Transport& transport, spec::Robot robot, const TetherBu
       looked_at_(transport.now()) {}
 
 Tether::~Tether() {
-  if (began_ && !finished_) // nothing may be thrown here, and nobody is there who could be told
+  if (began_ && !finished_) // a destructor must not throw and has nobody to report to
     static_cast<void>(contain([this]() -> tl::expected<void, Failure> {
       finish();
       return {};
@@ -52,7 +46,7 @@ Failure Tether::lost(const LinkError& error) const {
 // Requests.
 
 tl::expected<void, LinkError> Tether::send(const Request& request, Kind kind) {
-  constexpr std::size_t most_open = 64; // a robot that answers nothing
+  constexpr std::size_t most_open = 64; // limit for a robot that never answers
   const auto bytes = wire_->encode(request, seq_);
   open_.push_back({request, seq_, now(), kind});
   if (open_.size() > most_open)
@@ -65,7 +59,7 @@ tl::expected<void, LinkError> Tether::send(const Request& request, Kind kind) {
   return transport_->write(bytes);
 }
 
-/// Sends until it is answered. Samples that come are noted, and nothing else.
+/// Sends a request until it is answered. Meanwhile only the arrival of samples is noted.
 tl::expected<std::optional<Bytes>, Failure> Tether::ask(const Request& request, Duration budget) {
   const auto until = now() + budget;
   std::optional<std::uint8_t> refusal;
@@ -74,7 +68,7 @@ tl::expected<std::optional<Bytes>, Failure> Tether::ask(const Request& request, 
     if (auto sent = send(request, Kind::Other); !sent)
       return tl::unexpected(lost(sent.error()));
     const auto wait = std::min(until, now() + budgets_.answer);
-    std::optional<Said::Answer> answer;
+    std::optional<RobotMessage::Answer> answer;
     while (!answer && now() < wait) {
       auto bytes = transport_->read(wait);
       if (!bytes)
@@ -83,14 +77,14 @@ tl::expected<std::optional<Bytes>, Failure> Tether::ask(const Request& request, 
       while (const auto said = wire_->next()) {
         if (std::holds_alternative<vm::Sample>(said->what))
           sample_at_ = now();
-        if (const auto* one = std::get_if<Said::Answer>(&said->what);
+        if (const auto* one = std::get_if<RobotMessage::Answer>(&said->what);
             one != nullptr && one->seq == seq)
           answer = *one;
       }
     }
     for (const auto& one : std::exchange(open_, {}))
       if (one.kind != Kind::Drive && one.kind != Kind::Stabilization)
-        send_again(one); // a lamp, say: it leaves once the run goes on
+        send_again(one); // for example a lamp: sent once the run continues
     if (!answer)
       continue;
     if (answer->error == 0)
@@ -98,7 +92,7 @@ tl::expected<std::optional<Bytes>, Failure> Tether::ask(const Request& request, 
     refusal = answer->error;
     if (!wire_->means_later(answer->error))
       break;
-    while (now() < wait) // it is busy
+    while (now() < wait) // the robot is busy
       if (auto bytes = transport_->read(wait); !bytes)
         return tl::unexpected(lost(bytes.error()));
       else
@@ -155,7 +149,7 @@ tl::expected<void, Failure> Tether::ask_all(const std::vector<Request>& requests
   return {};
 }
 
-/// Lets the robot speak, and waits for what it says first.
+/// Starts streaming and waits for the first sample.
 tl::expected<vm::Sample, Failure> Tether::listen() {
   if (auto asked = ask_all(wire_->stream(streamed_)); !asked)
     return tl::unexpected(asked.error());
@@ -177,7 +171,7 @@ tl::expected<vm::Sample, Failure> Tether::listen() {
                             "if not, name it with `--robot`",
                             budgets_.first_sample / 1s, spec::info(robot_).title)});
   sample_at_ = looked_at_ = now();
-  facing_deg_ = on_circle(sample->yaw_deg);
+  facing_deg_ = vm::whole_heading(sample->yaw_deg);
   stale_ = false;
   return *sample;
 }
@@ -197,19 +191,29 @@ tl::expected<void, Failure> Tether::go_on() {
   return {};
 }
 
-// What the ball asks of its body.
+// Requests of the ball.
 
-/// Whatever drove the motors is what is stopped: a robot without stabilization ignores a roll.
+/// Depends on what drives the motors: a robot without stabilization ignores a roll.
 std::deque<Request> Tether::stop_steps() {
   std::deque<Request> steps;
   if (loose_) {
-    heading_ = facing_deg_; // nobody knows where its motors have turned it to
+    heading_ = facing_deg_; // raw motors may have turned it
     steps.push_back(*wire_->drive(vm::Motors{}));
     if (auto on = wire_->drive(vm::Stabilization::On))
       steps.push_back(*std::move(on));
   }
   steps.push_back(wire_->brake(heading_));
   return steps;
+}
+
+Bytes Tether::stop_packets() {
+  Bytes packets;
+  for (const auto& step : stop_steps()) {
+    const auto packet =
+        wire_->encode(step, 0); // a fixed number, so that equal steps give equal bytes
+    packets.insert(packets.end(), packet.begin(), packet.end());
+  }
+  return packets;
 }
 
 void Tether::begin_stop(std::deque<Request> steps, bool whole) {
@@ -220,14 +224,14 @@ void Tether::begin_stop(std::deque<Request> steps, bool whole) {
 
 void Tether::want_stop() {
   auto steps = stop_steps();
-  if (!stopping_.empty() && stops_whole_) { // it goes on: begun anew each time it would never end
+  if (!stopping_.empty() && stops_whole_) { // in progress: restarting each time would never end
     if (!loose_ && stopping_.back().data != steps.back().data) {
       stopping_.back() = steps.back();
       stop_open_ = false;
     }
   } else
     begin_stop(std::move(steps), true);
-  // What was not acknowledged does not come back after the stop.
+  // Drop unacknowledged drive requests, so that they are not repeated after the stop.
   std::erase_if(open_, [](const Pending& one) {
     return one.kind == Kind::Stabilization || one.kind == Kind::Drive;
   });
@@ -236,7 +240,7 @@ void Tether::want_stop() {
   driving_.reset();
 }
 
-/// After a stop that the program did not ask for.
+/// Restores what the program wants after a stop that it did not order.
 void Tether::resume(std::optional<Request> drive) {
   if (drive)
     waiting(Kind::Drive) = std::move(drive);
@@ -257,7 +261,7 @@ void Tether::drive_motors(vm::Motors motors) {
     return;
   }
   want_stop();
-  begin_stop({std::move(request)}, false); // no more: without power it coasts
+  begin_stop({std::move(request)}, false); // nothing else: unpowered it coasts
 }
 
 void Tether::obey(const vm::Motion& motion) {
@@ -268,8 +272,8 @@ void Tether::obey(const vm::Motion& motion) {
   if (const auto* motors = std::get_if<vm::Motors>(&motion))
     return drive_motors(*motors);
   if (const auto* turn = std::get_if<vm::Rotate>(&motion)) {
-    // It has no such command: it turns to where the turn ends.
-    heading_ = on_circle(heading_ + turn->angle_deg);
+    // The robot has no turn command: order the final heading.
+    heading_ = vm::whole_heading(heading_ + turn->angle_deg);
     waiting(Kind::Drive) = wire_->drive(vm::Roll{heading_, 0, vm::Go::Drive});
     return;
   }
@@ -280,7 +284,7 @@ void Tether::obey(const vm::Motion& motion) {
     if (stabilized_ && (loose_ || !was_stabilized))
       return want_stop();
     if (was_stabilized == stabilized_ && *mode != vm::Stabilization::OnAndReset)
-      return;                             // said again and again it would leave nothing else a turn
+      return;                             // repeating it would starve other requests
     if (was_stabilized && !stabilized_) { // it rolls on unpowered
       waiting(Kind::Drive).reset();
       driving_.reset();
@@ -317,13 +321,19 @@ void Tether::show_back(int level) {
 
 // Sending.
 
-/// What drives waits for the stop before it, and for samples; the last step of a stop it outdates
-/// once that has been sent.
+/// Drive requests wait for the stop before them and for samples. They may replace the last step of
+/// a stop once that has been sent.
 bool Tether::may_leave(Kind kind) const {
   if (kind == Kind::Stabilization)
     return stopping_.empty() && !stale_;
   return kind != Kind::Drive ||
          (!stale_ && (stopping_.empty() || (stopping_.size() == 1 && stop_open_ && !loose_)));
+}
+
+bool Tether::is_idle() const {
+  return soon_.empty() && stopping_.empty() &&
+         std::none_of(waiting_.begin(), waiting_.end(),
+                      [](const auto& request) { return request.has_value(); });
 }
 
 Instant Tether::next_due() const {
@@ -342,7 +352,7 @@ Instant Tether::next_due() const {
   return due;
 }
 
-/// What the robot has not taken is sent again, unless there is something newer of its kind.
+/// Repeats a request that the robot did not take, unless a newer one of its kind exists.
 void Tether::send_again(const Pending& pending) {
   if (pending.kind == Kind::Other || waits(pending.kind) ||
       newest_[static_cast<std::size_t>(pending.kind)] != pending.seq)
@@ -361,7 +371,7 @@ void Tether::give_up_waiting() {
   }
 }
 
-/// Sends the most urgent one of what waits, where the robot can take another command.
+/// Sends the most urgent waiting request, if the robot can take another command.
 tl::expected<void, LinkError> Tether::send_due() {
   give_up_waiting();
   if (now() < next_send_)
@@ -403,15 +413,15 @@ tl::expected<void, LinkError> Tether::send_due() {
   return {};
 }
 
-/// The whole stop: from now on a roll of speed 0 is enough.
+/// After a whole stop a roll of speed 0 is enough to stop again.
 void Tether::stop_acknowledged() {
   stopped_ = winding_up_;
   loose_ = false;
   refused_.reset();
 }
 
-/// What an answer means for what was asked; the voltage of the battery where that was it.
-std::optional<vm::stimulus::Battery> Tether::take(const Said::Answer& answer) {
+/// Handles an answer. Returns the battery voltage if that was the question.
+std::optional<vm::stimulus::Battery> Tether::take(const RobotMessage::Answer& answer) {
   const auto found = std::find_if(open_.begin(), open_.end(),
                                   [&](const Pending& one) { return one.seq == answer.seq; });
   if (found == open_.end())
@@ -423,7 +433,7 @@ std::optional<vm::stimulus::Battery> Tether::take(const Said::Answer& answer) {
   auto& busy = busy_[static_cast<std::size_t>(pending.kind)];
   const bool later = wire_->means_later(answer.error);
   if (answer.error != 0 && pending.kind == Kind::Battery)
-    return std::nullopt; // it is asked again later
+    return std::nullopt; // asked again later
   if (later) {
     if (!busy || now() - busy->last > 2 * budgets_.answer)
       busy = Busy{now(), now()};
@@ -445,7 +455,7 @@ std::optional<vm::stimulus::Battery> Tether::take(const Said::Answer& answer) {
   return pending.kind == Kind::Battery ? wire_->read_battery(answer.data) : std::nullopt;
 }
 
-/// A step of a stop was answered; the next one leaves whatever the answer was.
+/// A step of a stop was answered; the next one follows even after a refusal.
 void Tether::take_step(const Pending& step, bool done) {
   if (stopping_.empty() || newest_[static_cast<std::size_t>(Kind::Stop)] != step.seq)
     return;
@@ -474,14 +484,14 @@ std::optional<Failure> Tether::verdict() const {
   return std::nullopt;
 }
 
-/// Without samples nobody knows where it is: it stops, and goes on when they come again.
+/// Without samples the place is unknown: stops the robot until they come again.
 void Tether::watch_samples() {
   if (stale_ || sample_age() < budgets_.stale)
     return;
   stale_ = true;
   auto again = waits(Kind::Drive) ? waiting(Kind::Drive) : driving_;
   want_stop();
-  resume(std::move(again)); // leaves when samples come again
+  resume(std::move(again)); // sent when samples come again
 }
 
 Duration Tether::slept_since(Instant expected) const {
@@ -489,8 +499,8 @@ Duration Tether::slept_since(Instant expected) const {
   return late > longest_wait ? late : Duration{};
 }
 
-/// A write over Bluetooth LE takes its time, in which the robot drives and says nothing that is
-/// heard; only a very long one is a pause.
+/// A write over Bluetooth LE takes time, in which the robot drives unheard; only a very long one
+/// counts as a pause.
 void Tether::notice_slow_write() {
   constexpr Duration longest_write = 1500ms;
   const auto took = now() - looked_at_;
@@ -502,12 +512,12 @@ void Tether::notice_slow_write() {
 void Tether::notice_pause(Instant expected) {
   const auto slept = slept_since(expected);
   slept_ += slept;
-  sample_at_ = std::min(now(), sample_at_ + slept); // nobody could hear any
+  sample_at_ = std::min(now(), sample_at_ + slept); // none could be received meanwhile
   looked_at_ = now();
 }
 
 tl::expected<void, Failure> Tether::pump(Instant deadline,
-                                         const std::function<void(const Said&)>& hear) {
+                                         const std::function<void(const RobotMessage&)>& hear) {
   notice_pause(looked_at_);
   if (auto sent = send_due(); !sent)
     return tl::unexpected(lost(sent.error()));
@@ -522,12 +532,12 @@ tl::expected<void, Failure> Tether::pump(Instant deadline,
   while (const auto said = wire_->next()) {
     if (const auto* sample = std::get_if<vm::Sample>(&said->what)) {
       sample_at_ = now();
-      facing_deg_ = on_circle(sample->yaw_deg);
+      facing_deg_ = vm::whole_heading(sample->yaw_deg);
       stale_ = false;
     }
-    if (std::holds_alternative<Said::WillSleep>(said->what))
-      battery_at_ = now(); // whatever is asked keeps it awake
-    const auto* answer = std::get_if<Said::Answer>(&said->what);
+    if (std::holds_alternative<RobotMessage::WillSleep>(said->what))
+      battery_at_ = now(); // any request keeps it awake
+    const auto* answer = std::get_if<RobotMessage::Answer>(&said->what);
     if (answer == nullptr)
       hear(*said);
     else if (const auto battery = take(*answer))
@@ -546,7 +556,7 @@ tl::expected<void, Failure> Tether::pump(Instant deadline,
 }
 
 void Tether::wind_up() {
-  finished_ = true; // it is not told to stop once more when it is left
+  finished_ = true; // the destructor need not stop it again
   winding_up_ = true;
   soon_.clear();
   stale_ = false;
@@ -564,12 +574,12 @@ void Tether::relink(protocol::Transport& transport) {
   link_lost_ = false;
 }
 
-/// Sends the request, once at least, until it is acknowledged, `until` passes or the link is lost.
+/// Sends the request at least once, until it is acknowledged, `until` passes or the link is lost.
 bool Tether::acknowledges(const Request& request, Instant until,
-                          const std::function<void(const Said&)>& hear) {
+                          const std::function<void(const RobotMessage&)>& hear) {
   do {
     const auto seq = seq_;
-    // An interruption is noticed once; what follows goes through.
+    // Retry after an interruption, which occurs once; later writes succeed.
     if (auto sent = send(request, Kind::Stop); !sent) {
       if (sent.error().kind == LinkError::Kind::Interrupted)
         continue;
@@ -587,7 +597,7 @@ bool Tether::acknowledges(const Request& request, Instant until,
       }
       wire_->feed(*bytes);
       while (const auto said = wire_->next()) {
-        const auto* answer = std::get_if<Said::Answer>(&said->what);
+        const auto* answer = std::get_if<RobotMessage::Answer>(&said->what);
         if (answer == nullptr && hear)
           hear(*said);
         if (answer == nullptr || answer->seq != seq)
@@ -604,8 +614,8 @@ bool Tether::acknowledges(const Request& request, Instant until,
   return false;
 }
 
-/// Stops the robot, step by step. Where one step is not acknowledged, the others are tried, too.
-bool Tether::brake(const std::function<void(const Said&)>& hear) {
+/// Stops the robot step by step. A step without acknowledgement does not prevent the next ones.
+bool Tether::brake(const std::function<void(const RobotMessage&)>& hear) {
   const auto steps = stop_steps();
   stopping_.clear();
   const auto until = now() + budgets_.stop;
@@ -617,8 +627,8 @@ bool Tether::brake(const std::function<void(const Said&)>& hear) {
   return all;
 }
 
-/// Where it came to is what it says once it rests.
-void Tether::await_rest(const std::function<void(const Said&)>& hear) {
+/// Waits until the robot rests, so that its final place is known.
+void Tether::await_rest(const std::function<void(const RobotMessage&)>& hear) {
   constexpr double crawl_cm_s = 1;
   const auto until = now() + budgets_.rest;
   for (bool moves = true; moves && now() < until;) {
@@ -629,15 +639,15 @@ void Tether::await_rest(const std::function<void(const Said&)>& hear) {
     while (const auto said = wire_->next()) {
       if (const auto* sample = std::get_if<vm::Sample>(&said->what))
         moves = std::hypot(sample->velocity_cm_s.x, sample->velocity_cm_s.y) > crawl_cm_s;
-      if (hear && !std::holds_alternative<Said::Answer>(said->what))
+      if (hear && !std::holds_alternative<RobotMessage::Answer>(said->what))
         hear(*said);
     }
   }
 }
 
-bool Tether::finish(const std::function<void(const Said&)>& hear) {
+bool Tether::finish(const std::function<void(const RobotMessage&)>& hear) {
   const bool braked = brake(hear);
-  finished_ = true; // not before: whoever hears may throw
+  finished_ = true; // not earlier: `hear` may throw
   if (!braked)
     return false;
   if (hear)

@@ -16,7 +16,7 @@
 
 namespace orb::run {
 
-// What is said of a robot, whoever drives it.
+// Messages about a robot, shared by all commands that drive one.
 inline constexpr std::string_view stop_done = "the robot has been stopped";
 inline constexpr std::string_view stop_lost =
     "the robot has not acknowledged the stop; it stops by itself 2 s after the last command: make "
@@ -25,84 +25,93 @@ inline constexpr std::string_view samples_gone =
     "no sensor data: the robot was told to stop, and the program is waiting";
 inline constexpr std::string_view samples_back = "sensor data is back: the program continues";
 
-/// Waits, repetitions and limits of a run on a robot that is elsewhere.
+/// Time-outs, repetition intervals and limits of a run on a remote robot.
 struct TetherBudgets {
   CollisionLimits collisions;
-  Duration answer = 400ms;    ///< for one answer; then the request is sent again
+  Duration answer = 400ms;    ///< for one answer; then the request is repeated
   Duration setup = 6s;        ///< for an answer to each request before the run
-  Duration repeat = 800ms;    ///< a drive command is repeated so often while the robot drives
-  Duration stale = 500ms;     ///< without a sample for so long the robot is stopped
-  Duration gone = 5s;         ///< without one for so long the run ends
-  Duration first_sample = 3s; ///< for the first one
-  Duration stop = 4s;         ///< for a stop to be acknowledged at the end
-  Duration rest = 1500ms;     ///< for the robot to come to rest then
-  Duration busy = 5s;         ///< for a robot that says that it is busy
+  Duration repeat = 800ms;    ///< repetition interval of a drive command while the robot drives
+  Duration stale = 500ms;     ///< without a sample for this long the robot is stopped
+  Duration gone = 5s;         ///< without one for this long the run ends
+  Duration first_sample = 3s; ///< for the first sample
+  Duration stop = 4s;         ///< for the final stop to be acknowledged
+  Duration rest = 1500ms;     ///< for the robot to come to rest afterwards
+  Duration busy = 5s;         ///< for a robot that answers busy
   Duration teardown = 800ms;  ///< for each of the last answers
-  Duration battery = 10s;     ///< its voltage is asked for so often
+  Duration battery = 10s;     ///< interval of asking for its voltage
 };
 
-/// A robot at the other end of a link, as the body of a ball. Set-points wait here, the latest of a
-/// kind wins; they leave no faster than the robot takes them. A stop is never dropped, overtakes
-/// what waits and is repeated until it is acknowledged. However it is left, the robot is told to
-/// stop.
-class Tether final : public vm::Elsewhere {
+/// A robot at the other end of a link, used as the body of a ball. Set-points wait here, and the
+/// latest of a kind replaces earlier ones; they are sent no faster than the robot takes them. A
+/// stop is never dropped, overtakes waiting requests and is repeated until acknowledged. The
+/// destructor stops the robot. Large because what may leave next depends on everything that waits,
+/// is unanswered or has failed.
+class Tether final : public vm::RemoteBody {
 public:
-  /// `streamed`: what it streams besides where it is.
+  /// `streamed`: what it streams besides its place.
   Tether(protocol::Transport& transport, spec::Robot robot, const TetherBudgets& budgets,
          const Streamed& streamed = {});
-  /// Stops the robot where finish() has not been called.
+  /// Stops the robot unless finish() or wind_up() has been called.
   ~Tether() override;
   Tether(const Tether&) = delete;
   Tether& operator=(const Tether&) = delete;
 
-  /// Readies the robot and waits for its first sample.
-  /// The failure says which step failed; the robot has been stopped then.
+  /// Prepares the robot and waits for its first sample. The failure names the step that failed; the
+  /// robot has then been stopped.
   tl::expected<vm::Sample, Failure> begin(Aim aim);
 
-  /// Brakes the robot and silences it, whoever holds it. Fails where it has not acknowledged that.
+  /// Brakes and silences the robot. Fails if the brake is not acknowledged.
   tl::expected<void, Failure> hold();
-  /// Lets it speak again and drive as it did when it was held.
+  /// Resumes streaming and driving as before hold().
   tl::expected<void, Failure> go_on();
 
   void obey(const vm::Motion& motion) override;
   void show(vm::Color color) override;
   void show_back(int level) override;
-  /// Sends a request once nothing more urgent waits, after those given before. What is given so
-  /// paints over what show() shows, so a newer show() drops what waits.
+  /// Queues a request of low priority, in order. Such requests paint over show(), so a newer show()
+  /// drops them.
   void send_soon(Request request) { soon_.push_back(std::move(request)); }
+  /// True if none of these is pending.
+  bool has_sent_soon() const { return soon_.empty(); }
+  /// True if nothing is pending.
+  bool is_idle() const;
 
-  /// Sends what is due and waits for news until `deadline` at the latest. What the robot has said
-  /// goes to `hear`. The failure is why the run cannot go on.
-  tl::expected<void, Failure> pump(Instant deadline, const std::function<void(const Said&)>& hear);
+  /// Sends what is due and waits for news until `deadline` at the latest. Passes news to `hear`.
+  /// Fails if the run cannot continue.
+  tl::expected<void, Failure> pump(Instant deadline,
+                                   const std::function<void(const RobotMessage&)>& hear);
   Instant now() const { return transport_->now(); }
-  /// The voltage of its battery when it was readied; nothing where it does not tell.
+  /// Battery voltage when it was prepared; nullopt if it does not report it.
   const std::optional<vm::stimulus::Battery>& battery() const { return battery_; }
-  /// How long ago the newest sample came.
+  /// Age of the newest sample.
   Duration sample_age() const { return now() - sample_at_; }
   bool is_stale() const { return stale_; }
 
-  /// The link's time without the pauses in which nobody pumped: a program's time does not jump over
-  /// what it would have done while the computer slept.
+  /// The link's time without pauses of pumping: a program must not skip what it would have done
+  /// while the computer slept.
   Instant program_now() const { return now() - slept_ - slept_since(looked_at_); }
-  /// Why the run was no success, where only its end tells: the robot was busy all the time.
+  /// Returns a failure that shows only at the end of a run: the robot was busy all the time.
   std::optional<Failure> verdict() const;
 
-  /// Whether the link broke while the robot was to be stopped.
+  /// Returns true if the link broke while the robot was being stopped.
   bool link_lost() const { return link_lost_; }
-  /// From now on the link is this one: the old one was lost.
+  /// Replaces a lost link.
   void relink(protocol::Transport& transport);
-  /// The same as finish(), bit by bit for who may not wait: pump() brakes the robot, then puts it
-  /// back as it was, one request after the other, without its answers.
+  /// As finish(), but without blocking: pump() brakes the robot, then restores it with one request
+  /// after another, without waiting for answers.
   void wind_up();
-  /// Nothing is left to send. Whether the brake was acknowledged: acknowledged().
+  /// Returns true if nothing is left to send. acknowledged() says whether the brake was.
   bool is_wound_up() const { return winding_up_ && parting_.empty(); }
   bool acknowledged() const { return stopped_; }
-  /// Brakes the robot, watches it until it rests, puts it back as it was. Whether the brake was
-  /// acknowledged. What it says meanwhile goes to `hear`.
-  bool finish(const std::function<void(const Said&)>& hear = {});
+  /// The packets that stop the robot in its present state, for the owner of the link if this object
+  /// can no longer send.
+  Bytes stop_packets();
+  /// Brakes the robot, follows it until it rests and restores it. Returns true if the brake was
+  /// acknowledged. Passes news to `hear`.
+  bool finish(const std::function<void(const RobotMessage&)>& hear = {});
 
 private:
-  /// What a request is about: of a kind the latest wins. The most urgent first.
+  /// Kinds of requests, the most urgent first. The latest of a kind wins.
   enum class Kind : std::uint8_t {
     Stabilization,
     Drive,
@@ -111,7 +120,7 @@ private:
     Matrix,
     BackLamp,
     Battery,
-    Stop, ///< a step of a stop: they wait in a list of their own and go before all others
+    Stop, ///< a step of a stop: queued separately and sent before all others
     Other
   };
   static constexpr std::size_t kinds = static_cast<std::size_t>(Kind::Other);
@@ -122,7 +131,7 @@ private:
     Kind kind = Kind::Other;
   };
 
-  /// It answers `busy` to requests of a kind.
+  /// The robot answers `busy` to requests of a kind.
   struct Busy {
     Instant since;
     Instant last;
@@ -131,7 +140,7 @@ private:
   std::optional<Request>& waiting(Kind kind) { return waiting_[static_cast<std::size_t>(kind)]; }
   bool waits(Kind kind) const { return waiting_[static_cast<std::size_t>(kind)].has_value(); }
   bool may_leave(Kind kind) const;
-  /// The answer; nothing where it refuses what a run can do without.
+  /// Returns the answer; nullopt if the robot refuses an optional request.
   tl::expected<std::optional<Bytes>, Failure> ask(const Request& request, Duration budget);
   tl::expected<void, Failure> ask_all(const std::vector<Request>& requests);
   tl::expected<vm::Sample, Failure> listen();
@@ -140,9 +149,9 @@ private:
   Instant next_due() const;
   void send_again(const Pending& pending);
   void give_up_waiting();
-  std::optional<vm::stimulus::Battery> take(const Said::Answer& answer);
-  bool brake(const std::function<void(const Said&)>& hear);
-  void await_rest(const std::function<void(const Said&)>& hear);
+  std::optional<vm::stimulus::Battery> take(const RobotMessage::Answer& answer);
+  bool brake(const std::function<void(const RobotMessage&)>& hear);
+  void await_rest(const std::function<void(const RobotMessage&)>& hear);
   void watch_samples();
   std::deque<Request> stop_steps();
   void begin_stop(std::deque<Request> steps, bool whole);
@@ -151,7 +160,7 @@ private:
   void resume(std::optional<Request> drive);
   void drive_motors(vm::Motors motors);
   bool acknowledges(const Request& request, Instant until,
-                    const std::function<void(const Said&)>& hear);
+                    const std::function<void(const RobotMessage&)>& hear);
   void stop_acknowledged();
   Duration slept_since(Instant expected) const;
   void notice_pause(Instant expected);
@@ -166,35 +175,35 @@ private:
   Streamed streamed_;
   std::uint8_t seq_ = 0;
 
-  std::array<std::optional<Request>, kinds> waiting_; ///< to leave
-  std::array<std::uint8_t, kinds> newest_{};          ///< sequence number of the newest sent
+  std::array<std::optional<Request>, kinds> waiting_; ///< not yet sent
+  std::array<std::uint8_t, kinds> newest_{}; ///< sequence number of the newest request sent
   std::array<std::optional<Busy>, kinds> busy_{};
-  std::deque<Request> stopping_; ///< steps of a stop: each leaves once the last is acknowledged
-  bool stop_open_ = false;       ///< the first of them has been sent and not been answered
-  bool stops_whole_ = false;     ///< the steps end with the roll of 0, and none was refused
+  std::deque<Request> stopping_; ///< steps of a stop: each is sent once the one before is answered
+  bool stop_open_ = false;       ///< the first step has been sent and not answered
+  bool stops_whole_ = false;     ///< the steps end with a roll of 0, and none was refused
   bool link_lost_ = false;
-  std::optional<Request> driving_; ///< the last that left and keeps it moving: repeated
+  std::optional<Request> driving_; ///< last request sent that keeps it moving: repeated
   std::deque<Request> parting_;    ///< to be sent after the brake
   bool winding_up_ = false;
   bool stopped_ = false;        ///< the brake of wind_up() was acknowledged
   bool loose_ = false;          ///< raw motors or no stabilization: it ignores a roll of speed 0
-  bool stabilized_ = true;      ///< what the program wants
-  bool has_driven_ = false;     ///< it took a command that drives it
-  vm::Motors motors_;           ///< as set last
-  std::optional<Request> held_; ///< what it is to drive once nobody holds it
+  bool stabilized_ = true;      ///< as the program wants it
+  bool has_driven_ = false;     ///< it accepted a drive command
+  vm::Motors motors_;           ///< last raw motor values
+  std::optional<Request> held_; ///< drive request to resume after hold()
   Instant driven_at_{};
   int heading_ = 0;
-  std::deque<Request> soon_; ///< of send_soon()
-  std::deque<Pending> open_; ///< sent, not answered
+  std::deque<Request> soon_; ///< queued by send_soon()
+  std::deque<Pending> open_; ///< sent but not answered
   std::optional<vm::stimulus::Battery> battery_;
   std::optional<Failure> refused_;
 
-  std::optional<Instant> battery_at_; ///< when it is asked for next, which keeps the robot awake
+  std::optional<Instant> battery_at_; ///< when to ask next, which also keeps the robot awake
   Instant next_send_{};
   Instant sample_at_{};
   int facing_deg_ = 0; ///< in the newest sample
   Instant looked_at_{};
-  Duration slept_{}; ///< of all pauses
+  Duration slept_{}; ///< sum of all pauses
   bool stale_ = false;
   bool began_ = false;
   bool finished_ = false;

@@ -11,7 +11,7 @@ std::string RobotWire::name_of(const Request& request) const {
 }
 
 Bytes CollisionLimits::operands() const {
-  constexpr std::uint8_t dead_time = 20; // of 10 ms
+  constexpr std::uint8_t dead_time = 20; // in units of 10 ms
   const auto at_rest = static_cast<std::uint8_t>(threshold);
   const auto by_speed = static_cast<std::uint8_t>(speed);
   return {1, at_rest, by_speed, at_rest, by_speed, dead_time};

@@ -18,8 +18,8 @@ using spec::ApiCommand;
 constexpr std::uint32_t motion_timeout_flag = spec::permanent_option_flags::motion_timeout;
 constexpr int default_motion_timeout_ms = 2000;
 
-/// Where a run keeps what a source says; null for what it does not ask for.
-double* place_of(vm::Sample& sample, spec::StreamSource source) {
+/// Returns where to store the value of a source; null if it is not streamed.
+double* field_of(vm::Sample& sample, spec::StreamSource source) {
   using enum spec::StreamSource;
   const auto attitude = [&]() -> vm::Quaternion& {
     return sample.attitude ? *sample.attitude : sample.attitude.emplace();
@@ -69,10 +69,10 @@ bool is_streamed(spec::StreamSource source, const Streamed& streamed) {
   if (is_one_of(Q0, Q1, Q2, Q3))
     return streamed.attitude;
   vm::Sample sample;
-  return place_of(sample, source) != nullptr;
+  return field_of(sample, source) != nullptr;
 }
 
-/// MASK and MASK2 of all that is wanted.
+/// MASK and MASK2 of all streamed sources.
 std::uint64_t mask_of(const Streamed& streamed) {
   std::uint64_t mask = 0;
   for (const auto& row : spec::streams)
@@ -81,7 +81,7 @@ std::uint64_t mask_of(const Streamed& streamed) {
   return mask;
 }
 
-/// A frame of the stream; nothing where it is another's.
+/// Parses a frame of the stream; nullopt if its size does not match.
 std::optional<vm::Sample> read_frame(ByteView data, const Streamed& streamed, spec::Axes axes) {
   constexpr std::size_t value = 2; // bytes
   vm::Sample sample;
@@ -89,7 +89,7 @@ std::optional<vm::Sample> read_frame(ByteView data, const Streamed& streamed, sp
   for (const auto& row : spec::streams) {
     if (!is_streamed(row.source, streamed))
       continue;
-    auto* const place = place_of(sample, row.source);
+    auto* const place = field_of(sample, row.source);
     if (data.size() < at + value)
       return std::nullopt;
     const auto steps = static_cast<std::int16_t>(read_u16(data, at));
@@ -107,10 +107,12 @@ Request request(ApiCommand command, Bytes data) {
   return {spec::did(command), spec::cid(command), std::move(data)};
 }
 
-bool is(const Request& request, ApiCommand command) {
+bool is_command(const Request& request, ApiCommand command) {
   return request.did == spec::did(command) && request.cid == spec::cid(command);
 }
 
+/// A robot with packets v1. Large because RobotWire has a member for everything that is asked of a
+/// robot.
 class WireV1 final : public RobotWire {
 public:
   WireV1(spec::Robot robot, CollisionLimits limits) : robot_(robot), limits_(limits) {}
@@ -123,11 +125,11 @@ public:
     return static_cast<std::uint8_t>(seq + 1);
   }
   void feed(ByteView bytes) override { decoder_.feed(bytes); }
-  std::optional<Said> next() override;
+  std::optional<RobotMessage> next() override;
 
   std::vector<Request> setup(Aim aim) const override;
   void hear_setup(const Request& request, const std::optional<Bytes>& answer) override {
-    if (is(request, ApiCommand::GetPermanentOptionFlags) && answer &&
+    if (is_command(request, ApiCommand::GetPermanentOptionFlags) && answer &&
         answer->size() == sizeof(std::uint32_t))
       flags_ = read_u32(*answer, 0);
   }
@@ -149,14 +151,14 @@ public:
   }
   Request ask_battery() const override { return request(ApiCommand::GetPowerState, {}); }
   std::optional<vm::stimulus::Battery> read_battery(const Bytes& answer) const override {
-    constexpr std::size_t voltage = 2; // its place; in 0.01 V
+    constexpr std::size_t voltage = 2; // offset; in 0.01 V
     if (answer.size() < voltage + 2)
       return std::nullopt;
     return vm::stimulus::Battery{read_u16(answer, voltage) / 100.0};
   }
   bool loosens(const Request& request) const override {
-    return is(request, ApiCommand::SetRawMotorValues) ||
-           (is(request, ApiCommand::SetStabilization) && request.data.front() == 0);
+    return is_command(request, ApiCommand::SetRawMotorValues) ||
+           (is_command(request, ApiCommand::SetStabilization) && request.data.front() == 0);
   }
   std::string_view command_name(const Request& request) const override {
     const auto* row = spec::find_command(request.did, request.cid);
@@ -194,22 +196,23 @@ private:
   spec::Robot robot_;
   CollisionLimits limits_;
   protocol::Decoder decoder_{protocol::Direction::FromBall};
-  std::optional<std::uint32_t> flags_; ///< as the robot had them
-  Streamed streamed_;                  ///< what it streams
+  std::optional<std::uint32_t> flags_; ///< the robot's own
+  Streamed streamed_;                  ///< what the robot streams
 };
 
-std::optional<Said> WireV1::next() {
+std::optional<RobotMessage> WireV1::next() {
   while (const auto item = decoder_.next()) {
     if (item->kind == protocol::Item::Kind::Response)
-      return Said{Said::Answer{item->seq, item->code, {item->data.begin(), item->data.end()}}};
+      return RobotMessage{
+          RobotMessage::Answer{item->seq, item->code, {item->data.begin(), item->data.end()}}};
     if (item->kind != protocol::Item::Kind::Async)
       continue;
     if (item->code == static_cast<std::uint8_t>(spec::AsyncId::SensorData))
       if (const auto sample = read_frame(item->data, streamed_, spec::axes(robot_)))
-        return Said{*sample};
+        return RobotMessage{*sample};
     if (item->code == static_cast<std::uint8_t>(spec::AsyncId::Collision))
       if (const auto blow = read_collision(item->data, 11))
-        return Said{*blow};
+        return RobotMessage{*blow};
   }
   return std::nullopt;
 }

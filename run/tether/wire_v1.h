@@ -6,7 +6,7 @@
 
 namespace orb::run {
 
-/// The packets of API v1.
+/// Makes the wire for API v1.
 std::unique_ptr<RobotWire> make_wire_v1(spec::Robot robot, CollisionLimits limits);
 
 } // namespace orb::run

@@ -25,7 +25,7 @@ constexpr V2Service useful_services[] = {V2Service::Attitude, V2Service::Accel, 
 constexpr std::uint8_t token = 1;
 constexpr unsigned sample_interval_ms = 50;
 
-bool is_streamed(V2Sensor sensor, const Streamed& streamed) {
+bool is_v2_streamed(V2Sensor sensor, const Streamed& streamed) {
   using enum V2Sensor;
   const auto is_one_of = [&](auto... all) { return ((sensor == all) || ...); };
   if (is_one_of(AccelX, AccelY, AccelZ))
@@ -35,20 +35,20 @@ bool is_streamed(V2Sensor sensor, const Streamed& streamed) {
   return is_one_of(Pitch, Roll, Yaw, LocatorX, LocatorY, VelocityX, VelocityY);
 }
 
-std::uint32_t mask_of(spec::V2Mask mask, const Streamed& streamed) {
+std::uint32_t v2_mask_of(spec::V2Mask mask, const Streamed& streamed) {
   std::uint32_t bits = 0;
   for (const auto& row : spec::v2_sensors)
-    if (row.mask == mask && is_streamed(row.sensor, streamed))
+    if (row.mask == mask && is_v2_streamed(row.sensor, streamed))
       bits |= row.bit;
   return bits;
 }
 
-Request request(V2Command command, Bytes data = {}) {
+Request v2_request(V2Command command, Bytes data = {}) {
   const auto& row = spec::info(command);
   return {row.did(), row.cid(), std::move(data)};
 }
 
-bool is(const Request& request, V2Command command) {
+bool is_v2_command(const Request& request, V2Command command) {
   const auto& row = spec::info(command);
   return request.did == row.did() && request.cid == row.cid();
 }
@@ -76,11 +76,11 @@ void take(vm::Sample& sample, V2Sensor sensor, double value) {
   case V2Sensor::Speed:
   case V2Sensor::CoreTime:
   case V2Sensor::Head:
-  case V2Sensor::Light: break; // not asked for
+  case V2Sensor::Light: break; // not requested
   }
 }
 
-/// Which values a service has, of those that are wanted.
+/// The values of a service, as far as they are used.
 std::vector<V2Sensor> values_of(V2Service service) {
   switch (service) {
   case V2Service::Attitude: return {V2Sensor::Pitch, V2Sensor::Roll, V2Sensor::Yaw};
@@ -101,7 +101,7 @@ std::vector<V2Sensor> values_of(V2Service service) {
 std::vector<V2Service> services_of(const Streamed& streamed) {
   std::vector<V2Service> all;
   for (const auto service : useful_services)
-    if (is_streamed(values_of(service).front(), streamed))
+    if (is_v2_streamed(values_of(service).front(), streamed))
       all.push_back(service);
   return all;
 }
@@ -119,6 +119,8 @@ bool is_sane(const vm::Sample& sample) {
   return true;
 }
 
+/// A robot with packets v2. Large because RobotWire has a member for everything that is asked of a
+/// robot.
 class WireV2 final : public RobotWire {
 public:
   WireV2(spec::Robot robot, CollisionLimits limits) : robot_(spec::info(robot)), limits_(limits) {}
@@ -128,12 +130,12 @@ public:
     return seq >= spec::v2_last_seq ? 0 : static_cast<std::uint8_t>(seq + 1);
   }
   void feed(ByteView bytes) override { decoder_.feed(bytes); }
-  std::optional<Said> next() override;
+  std::optional<RobotMessage> next() override;
 
   void hear_setup(const Request& request, const std::optional<Bytes>& answer) override {
-    senses_ = senses_ || (is(request, V2Command::CollisionDetection) && !answer &&
+    senses_ = senses_ || (is_v2_command(request, V2Command::CollisionDetection) && !answer &&
                           knows(V2Command::CollisionSense));
-    stabilizes_ = stabilizes_ && (!is(request, V2Command::Stabilize) || answer);
+    stabilizes_ = stabilizes_ && (!is_v2_command(request, V2Command::Stabilize) || answer);
   }
   std::vector<Request> setup_more() const override;
   std::vector<Request> setup(Aim aim) const override;
@@ -146,17 +148,18 @@ public:
   std::vector<Request> show(vm::Color color) const override;
   std::optional<Request> show_back(int level) const override;
   Duration rests_after(const Request& request) const override {
-    return is(request, V2Command::Wake) ? spec::wakes_in(robot_.robot) : Duration{};
+    return is_v2_command(request, V2Command::Wake) ? spec::wakes_in(robot_.robot) : Duration{};
   }
   Request ask_battery() const override {
-    return knows(V2Command::GetVoltage) ? request(V2Command::GetVoltage)
-           : knows(V2Command::GetVolts) ? request(V2Command::GetVolts, {0})
-                                        : request(V2Command::Ping);
+    return knows(V2Command::GetVoltage) ? v2_request(V2Command::GetVoltage)
+           : knows(V2Command::GetVolts) ? v2_request(V2Command::GetVolts, {0})
+                                        : v2_request(V2Command::Ping);
   }
   std::optional<vm::stimulus::Battery> read_battery(const Bytes& answer) const override;
   bool loosens(const Request& request) const override {
-    return is(request, V2Command::RawMotors) ||
-           ((is(request, V2Command::SetStabilization) || is(request, V2Command::Stabilize)) &&
+    return is_v2_command(request, V2Command::RawMotors) ||
+           ((is_v2_command(request, V2Command::SetStabilization) ||
+             is_v2_command(request, V2Command::Stabilize)) &&
             request.data.front() == 0);
   }
   std::string_view command_name(const Request& request) const override {
@@ -177,21 +180,23 @@ private:
     Bytes data{static_cast<std::uint8_t>(speed)};
     append_u16(data, static_cast<std::uint32_t>(heading_deg));
     data.push_back(flags);
-    return request(V2Command::DriveWithHeading, std::move(data));
+    return v2_request(V2Command::DriveWithHeading, std::move(data));
   }
   bool knows(V2Command command) const { return spec::knows(robot_, spec::info(command)); }
   std::optional<Request> stabilization(std::uint8_t mode) const;
   std::optional<Request> collisions(Bytes operands) const;
-  Request lamps(std::uint32_t mask, Bytes values) const;
+  Request lamps(std::uint32_t mask, const Bytes& values) const {
+    return lamps_request(robot_, mask, values);
+  }
   std::optional<vm::Sample> sample(const Bytes& data) const;
   std::optional<vm::Sample> services(const Bytes& data) const;
 
   const spec::RobotInfo& robot_;
   CollisionLimits limits_;
-  bool senses_ = false;    ///< collisions by the way of a BOLT+
-  bool stabilizes_ = true; ///< by the way of a BOLT+, where the robot knows it
+  bool senses_ = false;    ///< detects collisions as a BOLT+ does
+  bool stabilizes_ = true; ///< stabilizes as a BOLT+ does, if the robot knows the command
   protocol::DecoderV2 decoder_;
-  Streamed streamed_; ///< what it streams
+  Streamed streamed_; ///< what the robot streams
 };
 
 Bytes WireV2::encode(const Request& request, std::uint8_t seq) const {
@@ -203,7 +208,7 @@ Bytes WireV2::encode(const Request& request, std::uint8_t seq) const {
   packet.seq = seq;
   packet.data = request.data;
   packet = protocol::address(std::move(packet), robot_);
-  // The streams of a robot with services are those of its second processor.
+  // Robots with services stream from their second processor.
   constexpr std::uint8_t sensors = 0x18;
   if (robot_.sensors == spec::RobotSensors::Services && request.did == sensors)
     packet.target = spec::v2_target(spec::V2Processor::Secondary);
@@ -214,11 +219,11 @@ std::optional<vm::Sample> WireV2::sample(const Bytes& data) const {
   vm::Sample sample;
   std::size_t at = 0;
   for (const auto& row : spec::v2_sensors) {
-    if (!is_streamed(row.sensor, streamed_))
+    if (!is_v2_streamed(row.sensor, streamed_))
       continue;
     if (data.size() < at + sizeof(float)) {
       if (row.mask == spec::V2Mask::Extended)
-        break; // a robot may have no gyroscope to tell of
+        break; // the robot may have no gyroscope
       return std::nullopt;
     }
     take(sample, row.sensor, protocol::read_f32(data, at));
@@ -249,13 +254,13 @@ std::optional<vm::Sample> WireV2::services(const Bytes& data) const {
   return at == data.size() ? std::optional(sample) : std::nullopt;
 }
 
-std::optional<Said> WireV2::next() {
+std::optional<RobotMessage> WireV2::next() {
   while (const auto item = decoder_.next()) {
     if (item->kind != protocol::ItemV2::Kind::Packet)
       continue;
     const auto& packet = item->packet;
     if (spec::has(packet.flags, spec::V2Flag::Response))
-      return Said{Said::Answer{packet.seq, packet.error, packet.data}};
+      return RobotMessage{RobotMessage::Answer{packet.seq, packet.error, packet.data}};
     if (packet.seq != spec::v2_message_seq)
       continue;
     const auto* row = spec::find_v2_message(packet.did, packet.cid);
@@ -267,14 +272,14 @@ std::optional<Said> WireV2::next() {
     if (row->message == spec::V2Message::ServiceSample)
       felt = services(packet.data);
     if (felt)
-      return Said{*felt};
+      return RobotMessage{*felt};
     if (row->message == spec::V2Message::WillSleep)
-      return Said{Said::WillSleep{}};
+      return RobotMessage{RobotMessage::WillSleep{}};
     if (row->message == spec::V2Message::CollisionSensed)
-      return Said{vm::event::Collision{}}; // it tells no more than that
+      return RobotMessage{vm::event::Collision{}}; // the message contains nothing else
     if (row->message == spec::V2Message::Collision)
       if (const auto blow = read_collision(packet.data, 13))
-        return Said{*blow};
+        return RobotMessage{*blow};
   }
   return std::nullopt;
 }
@@ -285,33 +290,33 @@ std::optional<vm::stimulus::Battery> WireV2::read_battery(const Bytes& answer) c
     volts = read_u16(answer, 0) / 100.0;
   else if (knows(V2Command::GetVolts) && answer.size() == sizeof(float))
     volts = protocol::read_f32(answer, 0);
-  constexpr double most = 20; // no battery of these has more
+  constexpr double most = 20; // more than any battery of these robots has
   return volts > 0 && volts < most ? std::optional(vm::stimulus::Battery{volts}) : std::nullopt;
 }
 
 std::vector<Request> WireV2::setup(Aim aim) const {
-  std::vector<Request> all{request(V2Command::Wake)};
+  std::vector<Request> all{v2_request(V2Command::Wake)};
   if (const auto on = stabilization(1))
     all.push_back(*on);
   if (knows(V2Command::LegAction))
-    all.push_back(request(V2Command::LegAction, {1})); // it drives on three legs
+    all.push_back(v2_request(V2Command::LegAction, {1})); // it drives on three legs
   if (aim == Aim::Zero) {
-    all.push_back(request(V2Command::ResetYaw));
-    all.push_back(request(V2Command::ResetLocator));
+    all.push_back(v2_request(V2Command::ResetYaw));
+    all.push_back(v2_request(V2Command::ResetLocator));
   }
   if (const auto detects = collisions(limits_.operands()))
     all.push_back(*detects);
   return all;
 }
 
-/// Nothing for a robot that always keeps it.
+/// Returns nullopt for robots that always stabilize.
 std::optional<Request> WireV2::stabilization(std::uint8_t mode) const {
   if (!knows(V2Command::SetStabilization))
     return std::nullopt;
   const bool knows_other = knows(V2Command::Stabilize);
-  auto one = request(
+  auto one = v2_request(
       knows_other && stabilizes_ ? V2Command::Stabilize : V2Command::SetStabilization, {mode});
-  if (knows_other) // sources differ on which it takes
+  if (knows_other) // sources disagree on which of the two it accepts
     one.need = Request::Need::Try;
   return one;
 }
@@ -319,12 +324,13 @@ std::optional<Request> WireV2::stabilization(std::uint8_t mode) const {
 std::optional<Request> WireV2::collisions(Bytes operands) const {
   if (!knows(V2Command::CollisionDetection))
     return std::nullopt;
-  auto one = request(V2Command::CollisionDetection, std::move(operands));
+  auto one = v2_request(V2Command::CollisionDetection, std::move(operands));
   one.need = Request::Need::Try;
   return one;
 }
 
-/// Sources differ on how a BOLT+ detects collisions: what it refuses it is not asked for again.
+/// Sources disagree on how a BOLT+ detects collisions: try its own way, and do not repeat what it
+/// refuses.
 std::vector<Request> WireV2::setup_more() const {
   std::vector<Request> all;
   if (!stabilizes_)
@@ -333,8 +339,8 @@ std::vector<Request> WireV2::setup_more() const {
   constexpr std::uint8_t medium = 3;
   constexpr std::uint8_t dead_time_ms = 200;
   if (senses_) {
-    all.push_back(request(V2Command::CollisionSense, {0, medium, 0, dead_time_ms}));
-    all.push_back(request(V2Command::CollisionSenseNotify, {1}));
+    all.push_back(v2_request(V2Command::CollisionSense, {0, medium, 0, dead_time_ms}));
+    all.push_back(v2_request(V2Command::CollisionSenseNotify, {1}));
   }
   for (auto& one : all)
     one.need = Request::Need::Try;
@@ -347,29 +353,29 @@ std::vector<Request> WireV2::stream(const Streamed& streamed) {
     Bytes list{token};
     for (const auto service : services_of(streamed)) {
       append_u16(list, static_cast<std::uint32_t>(service));
-      list.push_back(2); // 32 bits
+      list.push_back(2); // code for 32 bits
     }
     Bytes period;
     append_u16(period, sample_interval_ms);
-    return {request(V2Command::StreamConfigure, std::move(list)),
-            request(V2Command::StreamStart, std::move(period))};
+    return {v2_request(V2Command::StreamConfigure, std::move(list)),
+            v2_request(V2Command::StreamStart, std::move(period))};
   }
   Bytes extended;
-  append_u32(extended, mask_of(spec::V2Mask::Extended, streamed));
+  append_u32(extended, v2_mask_of(spec::V2Mask::Extended, streamed));
   Bytes mask;
   append_u16(mask, sample_interval_ms);
   mask.push_back(0);
-  append_u32(mask, mask_of(spec::V2Mask::Base, streamed));
-  return {request(V2Command::StreamExtended, std::move(extended)),
-          request(V2Command::StreamMask, std::move(mask))};
+  append_u32(mask, v2_mask_of(spec::V2Mask::Base, streamed));
+  return {v2_request(V2Command::StreamExtended, std::move(extended)),
+          v2_request(V2Command::StreamMask, std::move(mask))};
 }
 
 std::vector<Request> WireV2::silence() const {
   if (robot_.sensors == spec::RobotSensors::Services)
-    return {request(V2Command::StreamStop), request(V2Command::StreamClear)};
+    return {v2_request(V2Command::StreamStop), v2_request(V2Command::StreamClear)};
   constexpr std::size_t operands = 7;
-  return {request(V2Command::StreamMask, Bytes(operands, 0)),
-          request(V2Command::StreamExtended, Bytes(sizeof(std::uint32_t), 0))};
+  return {v2_request(V2Command::StreamMask, Bytes(operands, 0)),
+          v2_request(V2Command::StreamExtended, Bytes(sizeof(std::uint32_t), 0))};
 }
 
 std::vector<Request> WireV2::teardown() const {
@@ -377,7 +383,7 @@ std::vector<Request> WireV2::teardown() const {
   if (const auto on = stabilization(1))
     all.push_back(*on);
   if (senses_)
-    all.push_back(request(V2Command::CollisionSenseNotify, {0}));
+    all.push_back(v2_request(V2Command::CollisionSenseNotify, {0}));
   else if (const auto detects = collisions(CollisionLimits::off()))
     all.push_back(*detects);
   for (auto& one : show({}))
@@ -387,19 +393,7 @@ std::vector<Request> WireV2::teardown() const {
   return all;
 }
 
-Request WireV2::lamps(std::uint32_t mask, Bytes values) const {
-  Bytes data;
-  if (robot_.lamps == V2Command::SetLedsShort)
-    data.push_back(static_cast<std::uint8_t>(mask));
-  else if (robot_.lamps == V2Command::SetLedsLong)
-    append_u32(data, mask);
-  else
-    append_u16(data, mask);
-  data.insert(data.end(), values.begin(), values.end());
-  return request(robot_.lamps, std::move(data));
-}
-
-/// Lamps of three colours, then white ones, which show the white of the colour.
+/// Colour lamps first, then white ones, which show the white part of the colour.
 std::vector<Request> WireV2::show(vm::Color color) const {
   Bytes values;
   const auto lamp_count = std::popcount(robot_.body);
@@ -409,11 +403,11 @@ std::vector<Request> WireV2::show(vm::Color color) const {
                 std::min({color.red, color.green, color.blue}));
   std::vector<Request> all{lamps(robot_.body, std::move(values))};
   if (knows(V2Command::MatrixPixel))
-    all.push_back(request(V2Command::MatrixColor, {color.red, color.green, color.blue}));
+    all.push_back(v2_request(V2Command::MatrixColor, {color.red, color.green, color.blue}));
   return all;
 }
 
-/// The blue one of a lamp of three colours.
+/// Sets the blue channel if the lamp has three.
 std::optional<Request> WireV2::show_back(int level) const {
   if (robot_.aiming == 0)
     return std::nullopt;
@@ -432,16 +426,28 @@ std::optional<Request> WireV2::drive(const vm::Motion& motion) const {
                                        : motor.mode == vm::MotorMode::Reverse ? 2
                                                                               : 0);
     };
-    return request(V2Command::RawMotors,
-                   {mode(motors->left), static_cast<std::uint8_t>(motors->left.power),
-                    mode(motors->right), static_cast<std::uint8_t>(motors->right.power)});
+    return v2_request(V2Command::RawMotors,
+                      {mode(motors->left), static_cast<std::uint8_t>(motors->left.power),
+                       mode(motors->right), static_cast<std::uint8_t>(motors->right.power)});
   }
   if (const auto* mode = std::get_if<vm::Stabilization>(&motion))
     return stabilization(*mode == vm::Stabilization::Off ? 0 : 1);
-  return std::nullopt; // it has no rate of turns
+  return std::nullopt; // it has no rotation rate
 }
 
 } // namespace
+
+Request lamps_request(const spec::RobotInfo& robot, std::uint32_t mask, const Bytes& values) {
+  Bytes data;
+  if (robot.lamps == V2Command::SetLedsShort)
+    data.push_back(static_cast<std::uint8_t>(mask));
+  else if (robot.lamps == V2Command::SetLedsLong)
+    append_u32(data, mask);
+  else
+    append_u16(data, mask);
+  data.insert(data.end(), values.begin(), values.end());
+  return v2_request(robot.lamps, std::move(data));
+}
 
 std::unique_ptr<RobotWire> make_wire_v2(spec::Robot robot, CollisionLimits limits) {
   return std::make_unique<WireV2>(robot, limits);

@@ -33,7 +33,7 @@ void find_blocks(const Code& code, Flow& flow) {
   for (std::uint32_t i = 0; i < size;) {
     Block block;
     block.begin = i;
-    bool empty = true; // of lines that do something
+    bool empty = true; // the block has no instructions yet
     const auto index = static_cast<std::uint32_t>(flow.blocks.size());
     for (; i < size; ++i) {
       const auto& line = code.lines[i];
@@ -157,8 +157,8 @@ void step_back(const Code& code, const Flow& flow, const Liveness& liveness, con
 
 namespace {
 
-/// Goes back through the blocks until no set of live variables grows any more. What a block without
-/// calls does to a set is known beforehand; the others are walked line by line.
+/// Backward data-flow analysis: walks the blocks until no set of live variables grows. The effect
+/// of a block without calls is precomputed; other blocks are walked line by line.
 class LivenessReader {
 public:
   LivenessReader(const Code& code, const Flow& flow, Counting counting)
@@ -238,7 +238,7 @@ private:
     }
   }
 
-  /// What is live after a call is live at the callee's returns, or all through it.
+  /// A variable that is live after a call is live at the callee's returns, or all through it.
   void call(std::uint32_t caller, std::uint32_t callee) {
     const auto touched = flow_.touched[callee];
     const auto at_return = liveness_.at_return[callee];
@@ -257,7 +257,7 @@ private:
   const Flow& flow_;
   Counting counting_;
   Liveness liveness_;
-  VariableSets read_;    ///< of each block without calls: what is live before it, whatever follows
+  VariableSets read_;    ///< of each block without calls: live at its start, whatever follows
   VariableSets written_; ///< of each block without calls
   std::vector<bool> calls_;
   std::vector<std::uint64_t> live_;

@@ -9,7 +9,7 @@
 
 namespace orb::structured {
 
-/// Sets of variables, one after the other, as bits.
+/// Sets of variables as consecutive bit sets.
 class VariableSets {
 public:
   VariableSets() = default;
@@ -44,7 +44,7 @@ void each_member(std::span<const std::uint64_t> set, Visit visit) {
     for (auto bits = set[word]; bits != 0; bits &= bits - 1)
       visit(word * 64 + static_cast<std::uint32_t>(std::countr_zero(bits)));
 }
-/// Adds all of `from`; true where that changed something.
+/// Adds all of `from`; returns true if the set changed.
 inline bool unite(std::span<std::uint64_t> set, std::span<const std::uint64_t> from) {
   std::uint64_t changed = 0;
   for (std::size_t i = 0; i < set.size(); ++i) {
@@ -54,7 +54,7 @@ inline bool unite(std::span<std::uint64_t> set, std::span<const std::uint64_t> f
   return changed != 0;
 }
 
-/// Lines that run one after the other. A call stands inside: it comes back.
+/// A basic block: lines that run in sequence. Calls are inside a block, since they return.
 struct Block {
   std::uint32_t begin = 0; ///< lines
   std::uint32_t end = 0;
@@ -62,15 +62,15 @@ struct Block {
   std::uint32_t successors_end = 0;
 };
 
-/// How the lines of a program follow each other, and what its routines touch.
+/// The control flow of a program, and the variables that its routines use.
 struct Flow {
   std::vector<Block> blocks;
   std::vector<std::uint32_t> successors;     ///< blocks
   std::vector<std::uint32_t> block_of_label; ///< or none
   std::vector<std::uint32_t> entries;        ///< of each routine: its first block, or none
-  VariableSets written;                      ///< of each sub and function, with all that it calls
+  VariableSets written;                      ///< of each sub and function, including its callees
   VariableSets touched;                      ///< the same, read or written
-  std::vector<bool> sets_elements;           ///< the same
+  std::vector<bool> sets_elements;           ///< the same for elements
 
   std::span<const std::uint32_t> successors_of(const Block& block) const {
     return {successors.data() + block.successors_begin, successors.data() + block.successors_end};
@@ -79,13 +79,13 @@ struct Flow {
 
 Flow read_flow(const Code& code);
 
-/// Whether a line itself sets an element.
+/// True if the line itself sets an element.
 bool sets_element(const Code& code, const CodeLine& line);
 
-/// Of each label: how often it is named.
+/// The number of references to each label.
 std::vector<std::uint32_t> names_of_labels(const Code& code);
 
-/// Calls `visit` with each label that a line can go to.
+/// Calls `visit` with each label that a line can jump to.
 template <typename C, typename L, typename Visit>
 void each_target(C& code, L& line, Visit visit) {
   if (line.kind == LineKind::Goto || line.kind == LineKind::If || line.kind == LineKind::Next)
@@ -100,7 +100,7 @@ void each_target(C& code, L& line, Visit visit) {
       visit(code.parts[i].value);
 }
 
-/// The same, and the sub that a line calls.
+/// The same, and also with the sub that a line calls.
 template <typename C, typename L, typename Visit>
 void each_label(C& code, L& line, Visit visit) {
   each_target(code, line, visit);
@@ -113,12 +113,12 @@ inline std::uint32_t callee_of(const CodeLine& line) {
   return line.kind == LineKind::Gosub ? line.variable : none;
 }
 
-/// Whether the program ends with a line.
+/// True if the program ends at the line.
 inline bool ends_program(const CodeLine& line) {
   return line.kind == LineKind::Do && line.robot == spec::Statement::End;
 }
 
-/// Whether the line below can be next.
+/// True if the line below can follow.
 inline bool falls_through(const CodeLine& line) {
   if (line.kind == LineKind::Do)
     return line.robot != spec::Statement::End && line.robot != spec::Statement::Reset;
@@ -126,21 +126,21 @@ inline bool falls_through(const CodeLine& line) {
          line.kind != LineKind::Switch && line.kind != LineKind::On;
 }
 
-/// Which variables are read later, before they are set again. Kept ones are live everywhere.
+/// The live variables: read later before they are set again. Kept variables are live everywhere.
 struct Liveness {
-  VariableSets in;        ///< of each block, at its begin
+  VariableSets in;        ///< at the start of each block
   VariableSets out;       ///< at its end
-  VariableSets across;    ///< of each routine: what lives on through a call of it, untouched
-  VariableSets at_return; ///< of each routine: what is read after its calls
+  VariableSets across;    ///< of each routine: live across a call of it, unchanged
+  VariableSets at_return; ///< of each routine: read after its calls
 };
 
-/// What counts as a read: reads; or also where a variable is set to a number, so that what it held
-/// before is known and a number that it holds already need not be set.
+/// What counts as a use: reads only, or also assignments of a number, whose earlier value is
+/// relevant because setting a variable to its current value is redundant.
 enum class Counting : std::uint8_t { Reads, SettingsToo };
 
 Liveness read_liveness(const Code& code, const Flow& flow, Counting counting = Counting::Reads);
 
-/// Takes `line` out of `live`, the variables that are live after it: afterwards those before it.
+/// Moves `live` from after `line` to before it.
 void step_back(const Code& code, const Flow& flow, const Liveness& liveness, const CodeLine& line,
                std::span<std::uint64_t> live);
 

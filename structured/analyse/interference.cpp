@@ -17,7 +17,7 @@ Interference::Interference(const Code& code)
 }
 
 void Interference::part_loops() {
-  VariableSets counted(code_.routines.size(), code_.variables.size()); // with what they call
+  VariableSets counted(code_.routines.size(), code_.variables.size()); // including callees
   for (const auto& line : code_.lines)
     if (line.kind == LineKind::For)
       insert(counted[line.routine], line.variable);
@@ -27,7 +27,7 @@ void Interference::part_loops() {
       if (const auto callee = callee_of(line); callee != none)
         changed = unite(counted[line.routine], counted[callee]) || changed;
   }
-  std::vector<const CodeLine*> open; // the `for`s around a line
+  std::vector<const CodeLine*> open; // the enclosing `for` loops
   for (const auto& line : code_.lines) {
     const auto callee = callee_of(line);
     for (const auto* loop : open) {
@@ -40,7 +40,7 @@ void Interference::part_loops() {
       open.push_back(&line);
     else if (line.kind == LineKind::Next)
       std::erase_if(open, [&](const CodeLine* loop) {
-        return loop->label == line.label && line.step != 0; // 0: on a way out of the loop
+        return loop->label == line.label && line.step != 0; // 0: on an exit from the loop
       });
   }
 }
@@ -57,7 +57,7 @@ void Interference::read_block(std::uint32_t b) {
       add_edges(line, v, live);
       add_edges(line, v, liveness_.across[line.routine]);
     });
-    // The end of a loop is computed when its variable has been set.
+    // The end of a loop is computed after its variable is set.
     if (line.kind == LineKind::For)
       each_read(code_, line.end, [&](std::uint32_t v) { add_edge(line.variable, v); });
     step_back(code_, flow_, liveness_, line, live);

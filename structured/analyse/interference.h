@@ -8,7 +8,8 @@
 
 namespace orb::structured {
 
-/// Which variables must not share a letter: those that hold different values at one time.
+/// The interference graph: variables that hold different values at the same time cannot share a
+/// letter.
 class Interference {
 public:
   explicit Interference(const Code& code);
@@ -21,17 +22,17 @@ private:
 public:
   VariableSets edges;
   std::vector<bool> used;
-  std::uint32_t crowded_line = none; ///< where most variables are live
-  std::vector<std::uint64_t> crowd;  ///< these
-  std::size_t pressure = 0;          ///< how many they are
+  std::uint32_t crowded_line = none; ///< the line with the most live variables
+  std::vector<std::uint64_t> crowd;  ///< those variables
+  std::size_t pressure = 0;          ///< their number
 
 private:
   std::vector<std::uint64_t> live_;
 
   void read_block(std::uint32_t b);
 
-  /// Keeps the variables of loops apart that are open at once, also where a value of the outer one
-  /// is not needed: a `for` with the variable of an open loop takes the place of that loop.
+  /// Separates the counters of loops that are open at the same time, even if the outer value is not
+  /// needed: a `for` with the variable of an open loop replaces that loop.
   void part_loops();
   void measure(std::uint32_t line, const std::vector<std::uint64_t>& live);
   void add_edges(const CodeLine& line, std::uint32_t variable, std::span<const std::uint64_t> live);
@@ -61,7 +62,7 @@ private:
   std::vector<std::uint32_t> parent_;
 };
 
-/// Calls `visit` with each variable and the one that it is set to.
+/// Calls `visit` with the target and the source of each copy.
 template <typename Visit>
 void each_copy(const Code& code, Visit visit) {
   for (const auto& line : code.lines)

@@ -3,7 +3,7 @@
 namespace orb::structured {
 namespace {
 
-/// Whether a line does something that can be noticed from outside, or takes time.
+/// True if the line has an effect outside the program, or takes time.
 bool acts(const CodeLine& line) {
   return line.kind == LineKind::Do || line.kind == LineKind::Print ||
          line.kind == LineKind::SetSystem || line.kind == LineKind::Gosub ||
@@ -63,7 +63,7 @@ bool LineFacts::passes(const CodeLine& line, std::uint32_t term) const {
     return false;
   if (acts(line) && (effects & (noticed | effect::senses)) != 0)
     return false;
-  bool seen = false; // what is kept is looked at when the program has stopped
+  bool seen = false; // kept variables are inspected after the program stops
   each_write(code_, line, [&](std::uint32_t v) { seen = seen || code_.variables[v].kept; });
   if (seen && (effects & effect::faults) != 0)
     return false;

@@ -6,27 +6,26 @@
 
 namespace orb::structured {
 
-/// What a line does to variables, elements and the values of terms, the routines that it calls
-/// included.
+/// The effects of a line on variables, elements and terms, including the routines it calls.
 class LineFacts {
 public:
-  /// Both outlive it and may change.
+  /// Both must outlive this and may change.
   LineFacts(const Code& code, const Flow& flow) : code_(code), flow_(flow) {}
 
   bool writes(const CodeLine& line, std::uint32_t variable) const;
-  /// Writes or reads.
+  /// True if the line writes or reads the variable.
   bool touches(const CodeLine& line, std::uint32_t variable) const;
   bool sets_elements(const CodeLine& line) const;
-  /// Whether a term can be computed after a line instead of before it.
+  /// True if a term can be computed after the line instead of before it.
   bool passes(const CodeLine& line, std::uint32_t term) const;
-  /// Whether straight text ends at a line: what follows may come from elsewhere.
+  /// True if straight-line code ends at the line: the next line may be reached from elsewhere.
   static bool ends_text(const CodeLine& line);
 
-  /// Whether a term reads a variable.
+  /// True if a term reads the variable.
   bool reads(std::uint32_t term, std::uint32_t variable) const;
 
 private:
-  /// Whether a line changes what a term reads.
+  /// True if a line changes something that a term reads.
   bool disturbs(const CodeLine& line, std::uint32_t term) const;
   std::uint8_t effects_of(const CodeLine& line) const;
 

@@ -42,7 +42,7 @@ std::optional<compiler::Range> where(Comparison comparison, compiler::Range left
   return left;
 }
 
-Range Ranges::range_of(std::uint32_t term, const State& state) const {
+Range Ranges::range_of(std::uint32_t term, const VariableRanges& state) const {
   const auto& node = code_.terms[term];
   switch (node.kind) {
   case TermKind::Number: return Range::only(node.value);
@@ -61,9 +61,9 @@ Range Ranges::range_of(std::uint32_t term, const State& state) const {
   return {};
 }
 
-// ---- what is found before
+// ---- precomputed facts
 
-/// The variables whose values matter at the begin of each block.
+/// Finds the variables whose values matter at the start of each block.
 void Ranges::find_tracked() {
   const auto liveness = read_liveness(code_, flow_, Counting::SettingsToo);
   begins_.reserve(flow_.blocks.size() + 1);
@@ -81,8 +81,7 @@ void Ranges::find_tracked() {
     });
 }
 
-/// Numbers at which growing ranges stop first: those that tests, loops and
-/// assignments name, and their neighbours.
+/// The thresholds of widening: numbers in tests, loops and assignments, and their neighbours.
 void Ranges::find_landmarks() {
   std::vector<std::int32_t> named;
   for (const auto& line : code_.lines)
@@ -153,12 +152,12 @@ void Ranges::wait(std::uint32_t b) {
   first_waiting_ = std::min<std::size_t>(first_waiting_, b / 64);
 }
 
-void Ranges::load(std::uint32_t b, State& state) const {
+void Ranges::load(std::uint32_t b, VariableRanges& state) const {
   for (auto i = begins_[b]; i < begins_[b + 1]; ++i)
     state[tracked_[i]] = known_[i];
 }
 
-void Ranges::enter(std::uint32_t b, const State& state) {
+void Ranges::enter(std::uint32_t b, const VariableRanges& state) {
   if (b == none)
     return;
   constexpr std::uint32_t patience = 2;
@@ -197,15 +196,15 @@ void Ranges::visit(std::uint32_t b) {
 
 // ---- lines
 
-/// Goes over a line; false where nothing comes back from its call yet.
-bool Ranges::step(std::uint32_t b, const CodeLine& line, State& state) {
+/// Executes a line on the state; returns false if its call has not returned yet.
+bool Ranges::step(std::uint32_t b, const CodeLine& line, VariableRanges& state) {
   if (const auto callee = callee_of(line); callee != none)
     return call(callee, state, b);
   set(line, state);
   return true;
 }
 
-/// An element of some array gets a value of a range: those who read one look again.
+/// Joins a value into the range of all array elements; blocks that read one are visited again.
 void Ranges::set_element(Range range) {
   constexpr std::uint32_t patience = 4;
   auto joined = compiler::join(elements_, range);
@@ -219,20 +218,21 @@ void Ranges::set_element(Range range) {
       wait(b);
 }
 
-void Ranges::set(const CodeLine& line, State& state) {
+void Ranges::set(const CodeLine& line, VariableRanges& state) {
   if (line.kind == LineKind::SetElement)
     set_element(range_of(line.term, state));
   if (line.kind == LineKind::Let) {
     state[line.variable] = range_of(line.term, state);
   } else if (line.kind == LineKind::For) {
-    // The body is entered with all values of the variable at once: each turn would add but one.
+    // Enter the body with all values of the variable at once: one at a time would take a round
+    // each.
     const auto begin = state[line.variable] = range_of(line.term, state);
     const auto end = range_of(line.end, state);
     const auto joined = compiler::join(ends_[line.label], end);
     if (following_ && !(joined == ends_[line.label])) {
       ends_[line.label] = joined;
       if (const auto next = nexts_[line.label]; next != none && reached_[next])
-        wait(next); // which leaves the loop at another value now
+        wait(next); // it now leaves the loop with another value
     }
     state[line.variable] = line.step > 0 ? Range{begin.lo, std::max(begin.hi, end.hi)}
                                          : Range{std::min(begin.lo, end.lo), begin.hi};
@@ -245,8 +245,8 @@ void Ranges::set(const CodeLine& line, State& state) {
   }
 }
 
-/// Turns `state` into that after the call of a routine; false where nothing comes back from it yet.
-bool Ranges::call(std::uint32_t routine, State& state, std::uint32_t from) {
+/// Changes `state` to that after the call of a routine; returns false if it has not returned yet.
+bool Ranges::call(std::uint32_t routine, VariableRanges& state, std::uint32_t from) {
   auto& returned = returns_[routine];
   if (following_) {
     enter(flow_.entries[routine], state);
@@ -258,9 +258,9 @@ bool Ranges::call(std::uint32_t routine, State& state, std::uint32_t from) {
   return returned.yet;
 }
 
-// ---- ways from block to block
+// ---- edges between blocks
 
-void Ranges::leave(std::uint32_t b, const CodeLine& line, State& state) {
+void Ranges::leave(std::uint32_t b, const CodeLine& line, VariableRanges& state) {
   const auto& block = flow_.blocks[b];
   if (line.kind == LineKind::If)
     return leave_if(b, line, state);
@@ -276,8 +276,8 @@ void Ranges::leave(std::uint32_t b, const CodeLine& line, State& state) {
     enter(next, state);
 }
 
-/// Joins what a routine returns with; where that is news, its callers go on.
-void Ranges::leave_routine(std::uint32_t routine, const State& state) {
+/// Joins the state at a return; if it changed, the callers are visited again.
+void Ranges::leave_routine(std::uint32_t routine, const VariableRanges& state) {
   auto& returned = returns_[routine];
   bool changed = !returned.yet;
   returned.known.resize(returned.written.size());
@@ -293,7 +293,7 @@ void Ranges::leave_routine(std::uint32_t routine, const State& state) {
       wait(caller);
 }
 
-bool Ranges::narrow(const Relation& relation, Comparison comparison, State& state) const {
+bool Ranges::narrow(const Relation& relation, Comparison comparison, VariableRanges& state) const {
   const auto left = range_of(relation.left, state);
   const auto right = range_of(relation.right, state);
   const auto narrowed = where(comparison, left, right);
@@ -309,9 +309,9 @@ bool Ranges::narrow(const Relation& relation, Comparison comparison, State& stat
   return true;
 }
 
-/// Enters a block with what is known where a relation holds; not where it cannot.
+/// Enters a block with the state narrowed by a relation, unless the relation cannot hold.
 void Ranges::enter_where(const Relation& relation, Comparison comparison, std::uint32_t b,
-                         State& state) {
+                         VariableRanges& state) {
   std::pair<std::uint32_t, Range> before[2];
   std::size_t count = 0;
   for (const auto term : {relation.left, relation.right})
@@ -324,7 +324,7 @@ void Ranges::enter_where(const Relation& relation, Comparison comparison, std::u
     state[before[count].first] = before[count].second;
 }
 
-void Ranges::leave_if(std::uint32_t b, const CodeLine& line, State& state) {
+void Ranges::leave_if(std::uint32_t b, const CodeLine& line, VariableRanges& state) {
   const auto& condition = code_.conditions[line.condition];
   const auto target = flow_.block_of_label[line.label];
   const auto next = b + 1 < flow_.blocks.size() ? b + 1 : none;
@@ -337,7 +337,7 @@ void Ranges::leave_if(std::uint32_t b, const CodeLine& line, State& state) {
   enter_where(condition.first, opposite(condition.first.comparison), next, state);
 }
 
-void Ranges::leave_next(std::uint32_t b, const CodeLine& line, State& state) {
+void Ranges::leave_next(std::uint32_t b, const CodeLine& line, VariableRanges& state) {
   const auto stepped = compiler::apply(Operator::Add, state[line.variable], Range::only(line.step));
   const auto end = ends_[line.label];
   const bool up = line.step > 0;
@@ -354,7 +354,7 @@ void Ranges::leave_next(std::uint32_t b, const CodeLine& line, State& state) {
   }
 }
 
-void Ranges::leave_switch(const CodeLine& line, State& state) {
+void Ranges::leave_switch(const CodeLine& line, VariableRanges& state) {
   const auto chosen = state[line.variable];
   auto others = std::int64_t{chosen.hi} - chosen.lo + 1; // values without a case
   for (auto i = line.parts_begin; i < line.parts_end; ++i) {
@@ -371,8 +371,8 @@ void Ranges::leave_switch(const CodeLine& line, State& state) {
     enter(flow_.block_of_label[line.label], state);
 }
 
-/// `on` a variable, or one with a number added, tells its value at each target.
-void Ranges::leave_on(const CodeLine& line, State& state) {
+/// An `on` of a variable, or of one plus a constant, fixes its value at each target.
+void Ranges::leave_on(const CodeLine& line, VariableRanges& state) {
   const auto sum = sum_of(code_, line.term);
   const bool steps = sum.base != none && code_.terms[sum.base].kind == TermKind::Variable;
   const auto variable = steps ? code_.terms[sum.base].left : none;
@@ -388,7 +388,7 @@ void Ranges::leave_on(const CodeLine& line, State& state) {
     state[variable] = before;
 }
 
-Outcome outcome_of(const Ranges& ranges, const Relation& relation, const State& state) {
+Outcome outcome_of(const Ranges& ranges, const Relation& relation, const VariableRanges& state) {
   const auto left = ranges.range_of(relation.left, state);
   const auto right = ranges.range_of(relation.right, state);
   if (!where(relation.comparison, left, right))
@@ -397,7 +397,7 @@ Outcome outcome_of(const Ranges& ranges, const Relation& relation, const State& 
 }
 
 std::uint32_t chosen_label(const Code& code, const Ranges& ranges, const CodeLine& on,
-                           const State& state) {
+                           const VariableRanges& state) {
   const auto chosen = ranges.range_of(on.term, state);
   const auto count = static_cast<std::int32_t>(on.parts_end - on.parts_begin);
   if (!chosen.constant() || chosen.lo < 1 || chosen.lo > count)

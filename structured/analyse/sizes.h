@@ -6,19 +6,18 @@
 
 namespace orb::structured {
 
-// Rough sizes in bytes: they only choose between two right programs.
-inline constexpr std::uint32_t line_bytes = 5;   ///< its number, the blank and the line end
+// Estimated sizes in bytes. They only choose between two correct programs.
+inline constexpr std::uint32_t line_bytes = 5;   ///< its number, the space and the line ending
 inline constexpr std::uint32_t call_bytes = 10;  ///< `12 gosub 34`
 inline constexpr std::uint32_t jump_bytes = 10;  ///< `12 goto 34`
 inline constexpr std::uint32_t return_bytes = 9; ///< `12 return`
 
 std::uint32_t bytes_of(const Code& code, const CodeLine& line);
 
-/// Whether a line that does something may stand after `then` and `else`.
+/// True if a line with an effect may be placed after `then` and `else`.
 bool fits_arm(const CodeLine& line);
 
-/// A line of its own with what another one does: what is found out about the copy must not be
-/// believed of the other.
+/// A separate copy of a line: facts about the copy must not apply to the original.
 CodeLine copy_line(Code& code, CodeLine line);
 
 } // namespace orb::structured

@@ -5,7 +5,7 @@
 #include "structured/optimise/arms.h"
 #include "structured/optimise/counted.h"
 #include "structured/optimise/jumps.h"
-#include "structured/text/words.h"
+#include "structured/text/structured_words.h"
 
 #include <algorithm>
 
@@ -16,7 +16,7 @@ bool is_missing(Comparison comparison) {
   return comparison == Comparison::LessEqual || comparison == Comparison::GreaterEqual;
 }
 
-/// Whether the robot can say a relation: it has no `<=` and `>=`, but x <= 5 is x < 6 where that
+/// True if the robot can express a relation: it has no `<=` and `>=`, but x <= 5 is x < 6 if that
 /// does not wrap.
 bool can_say(const Code& code, const Relation& relation) {
   return !is_missing(relation.comparison) || moved_side(code, relation) != Moved::Neither;
@@ -39,6 +39,8 @@ bool in_documented_list(spec::Statement statement) {
   return spec::info(statement).in_then == spec::InThen::Listed;
 }
 
+/// Rewrites tests and the lines around them. Large because each kind of rewriting has its own
+/// member.
 class ChoiceWriter {
 public:
   ChoiceWriter(Code& code, const Program& program, const Identity& identity)
@@ -72,7 +74,7 @@ private:
                                      code_.terms[condition.first.right].effects);
   }
 
-  /// Whether the second test may be safe only because the first one narrows a variable that both
+  /// True if the second test may be safe only because the first one narrows a variable that both
   /// read.
   bool leans_on(const Relation& first, const Relation& second) const {
     bool leans = false;
@@ -83,8 +85,8 @@ private:
     return leans;
   }
 
-  /// Two tests in a row as one with `and` or `or`. The robot always computes both, so the second
-  /// must do nothing but give a value.
+  /// Joins two consecutive tests with `and` or `or`. The robot always computes both, so the second
+  /// must have no effects.
   bool join_tests() {
     tidy(code_);
     bool changed = false;
@@ -110,7 +112,7 @@ private:
       } else {
         continue;
       }
-      // One of the two ways to say it is needed later.
+      // One of the two forms must be expressible later.
       if (!can_say(code_, joined) && !can_say(code_, opposite_of(joined)))
         continue;
       if ((effects_of(first) & effect::faults) != 0)
@@ -124,10 +126,10 @@ private:
     return changed;
   }
 
-  /// Arms of two lines, or of two and one: tested again, each line of one and that of the other are
-  /// one line of the robot.
+  /// Splits branches of two lines, or of two and one: repeating the test pairs each line of one
+  /// branch with that of the other in one line of the robot.
   void pair_arms() {
-    constexpr std::uint32_t most_bytes = 22; // of a test, which is as long as the jumps that go
+    constexpr std::uint32_t most_bytes = 22; // of a test, as long as the jumps that it saves
     named_ = tidy(code_);
     for (auto i = static_cast<std::uint32_t>(code_.lines.size()); i-- > 0;) {
       const auto arms = arms_at(code_, named_, i);
@@ -170,7 +172,8 @@ private:
     }
   }
 
-  /// Whether a test ends the same after the first lines of its arms, and can be said before each.
+  /// True if the test has the same result after the first lines of its branches, and can be
+  /// expressed before each.
   bool can_test_again(std::uint32_t i, const Arms& arms) const {
     const auto& lines = code_.lines;
     const auto& condition = code_.conditions[lines[i].condition];
@@ -184,8 +187,8 @@ private:
     return good;
   }
 
-  /// Whether a line can run before a test instead of after it. Variables that share a letter are
-  /// one.
+  /// True if the line can run before a test instead of after it. Variables that share a letter
+  /// count as one.
   bool passes(const CodeLine& test, const CodeLine& line) const {
     const auto effects = structured::effects_of(code_, test);
     const auto still = line.kind == LineKind::Let          ? 0
@@ -200,7 +203,7 @@ private:
     return good;
   }
 
-  /// Whether a line may stand after `then` and `else`.
+  /// True if the line may be placed after `then` and `else`.
   static bool fits_branch(const CodeLine& line) {
     switch (line.kind) {
     case LineKind::Let:
@@ -244,8 +247,8 @@ private:
     return std::none_of(text.begin() + begin, text.begin() + end, is_line_end);
   }
 
-  /// One line of the robot speaks for one line of the source: the one whose part may stop the
-  /// program. False where there are several.
+  /// Assigns a robot line to one source line: the one whose part may stop the program. Returns
+  /// false if there are several.
   bool name_origin(CodeLine& line, std::uint32_t taken, std::uint32_t passed) const {
     std::uint32_t origin = none;
     bool good = true;
@@ -268,12 +271,12 @@ private:
     return good;
   }
 
-  /// `a <= b` of two values that may be any: `a < b or a = b`.
+  /// Expands `a <= b` of two unbounded values to `a < b or a = b`.
   void spell_out(Condition& condition) const {
     auto& first = condition.first;
     const auto& left = code_.terms[first.left];
     const auto& right = code_.terms[first.right];
-    constexpr int longest = 6; // else a jump to the next line is shorter
+    constexpr int longest = 6; // beyond, a jump to the next line is shorter
     if (condition.glue != Glue::None || can_say(code_, condition) ||
         ((left.effects | right.effects) & ~effect::elements) != 0 ||
         left.size + right.size > longest)
@@ -285,14 +288,14 @@ private:
         first.comparison == Comparison::LessEqual ? Comparison::Less : Comparison::Greater;
   }
 
-  /// Makes line `i` a choice: `taken` where its condition holds, `passed` where it does not.
+  /// Turns line `i` into an `if`: `taken` if its condition holds, `passed` if not.
   bool choose(std::uint32_t i, std::uint32_t taken, std::uint32_t passed) {
     auto& line = code_.lines[i];
     auto condition = code_.conditions[line.condition];
     if (passed == none)
       spell_out(condition);
-    // Without an `else` the condition must be the one that holds; with one either will do, and the
-    // comparison that the robot has reads better.
+    // Without an `else`, the condition must be the one that holds. With one, either works; prefer
+    // the comparison that the robot has.
     const bool turned = is_missing(condition.first.comparison) && passed != none &&
                         can_say(code_, opposite_of(condition));
     if (taken == none || turned || !can_say(code_, condition)) {
@@ -310,7 +313,7 @@ private:
     return true;
   }
 
-  /// A test that leads to a `return` returns itself.
+  /// Replaces a jump from a test to a `return` by the `return` itself.
   void return_at_once() {
     const auto at = lines_of_labels(code_);
     std::vector<CodeLine> lines;
@@ -406,9 +409,11 @@ private:
     }
   }
 
-  /// `B = abs roll` above `if A < B then A = B`: in one line a sensor is read twice at once.
+  /// Moves `B = abs roll` above `if A < B then A = B` into the test: within one line, both reads of
+  /// a sensor give the same value.
   void sense_in(std::uint32_t i) {
-    constexpr std::uint16_t largest = 2; ///< a sensor, or a function of one: as short as the line
+    // A sensor or a function of it: the test becomes no longer than the line it replaces.
+    constexpr std::uint16_t largest = 2;
     if (i == 0 || code_.lines[i - 1].kind != LineKind::Let)
       return;
     auto& set = code_.lines[i - 1];
@@ -429,7 +434,7 @@ private:
 
   static bool falls(const CodeLine& line) { return falls_through(line); }
 
-  /// The tests that are left: `then goto`, where needed with a jump to the next line.
+  /// Writes the remaining tests as `then goto`, with a jump to the next line if needed.
   void finish_tests() {
     std::vector<CodeLine> lines;
     lines.swap(code_.lines);
@@ -457,7 +462,7 @@ private:
     return i;
   }
 
-  /// A jump to a `return`, an `end` or another jump is that itself.
+  /// Replaces a jump to a `return`, an `end` or another jump by its target.
   void end_at_once() {
     tidy(code_);
     const auto at = lines_of_labels(code_);
@@ -484,8 +489,8 @@ private:
     }
   }
 
-  /// Lines that nothing leads to since the jumps to them became what they led to, and jumps over
-  /// such lines.
+  /// Removes lines that became unreachable when jumps to them were replaced, and jumps over such
+  /// lines.
   bool remove_unreached() {
     tidy(code_);
     bool removed = false;
@@ -507,13 +512,13 @@ private:
   const Program& program_;
   const Identity& identity_;
   std::vector<std::uint32_t> at_;    ///< of each label: its line, while branches are folded
-  std::vector<std::uint32_t> named_; ///< of each label: how often, while branches are folded
-  std::vector<std::uint32_t> reads_; ///< of each variable: how often it is read
+  std::vector<std::uint32_t> named_; ///< of each label: its references, while branches are folded
+  std::vector<std::uint32_t> reads_; ///< of each variable: its reads
 };
 
 } // namespace
 
-void write_choices(Code& code, const Letters& letters, const Program& program) {
+void write_choices(Code& code, const LetterAllocation& letters, const Program& program) {
   for (auto& line : code.lines)
     if (line.kind == LineKind::Let && code.terms[line.term].kind == TermKind::Variable &&
         letters.of[code.terms[line.term].left] == letters.of[line.variable])

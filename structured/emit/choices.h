@@ -6,10 +6,10 @@
 
 namespace orb::structured {
 
-/// Turns tests and the lines they lead to into the robot's `if … then … else`: tests joined by its
-/// one `and` or `or`, single statements after `then` and `else`, comparisons that it has. Copies
-/// between variables that share a letter go. Afterwards there are no If lines. A robot's line has
-/// one line of the source where it can stop the program.
-void write_choices(Code& code, const Letters& letters, const Program& program);
+/// Turns tests and the lines they lead to into the robot's `if … then … else`: joins tests with its
+/// single `and` or `or`, places single statements after `then` and `else`, and uses only
+/// comparisons that it has. Removes copies between variables that share a letter. Afterwards no If
+/// lines remain, and a robot line that can stop the program belongs to one source line.
+void write_choices(Code& code, const LetterAllocation& letters, const Program& program);
 
 } // namespace orb::structured

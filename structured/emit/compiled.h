@@ -11,19 +11,18 @@
 
 namespace orb::structured {
 
-/// A structured program, all that is to be said about it, and, where no error was found, the lines
-/// of the robot that it becomes.
+/// A structured program with all its findings and, if it has no errors, the robot's lines.
 struct Compiled {
   Program program;
   Names names;
   Code code;
-  Letters letters;
-  RobotText robot;         ///< empty where there are errors, or nothing to run
-  compiler::Program lines; ///< these, parsed: for take_lines(), as their text moves with this
-  compiler::Image image;   ///< of these, packed
-  bool runs = false;       ///< whether there is a program to run
+  LetterAllocation letters;
+  RobotText robot;         ///< empty on errors, or if there is nothing to run
+  compiler::Program lines; ///< the same, parsed: for take_lines(), since their text moves with this
+  compiler::Image image;   ///< the same, packed
+  bool runs = false;       ///< true if there is a program to run
 
-  /// Whether something keeps it from becoming lines.
+  /// True if an error prevents building.
   bool has_errors() const {
     return std::any_of(program.diagnostics.begin(), program.diagnostics.end(), keeps_from_building);
   }

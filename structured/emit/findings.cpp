@@ -5,7 +5,7 @@
 #include "compiler/text/texts.h"
 #include "repair/tokens.h"
 #include "spec/limits.h"
-#include "structured/text/blocks.h"
+#include "structured/text/link_blocks.h"
 #include "structured/text/texts.h"
 
 #include <algorithm>
@@ -18,8 +18,8 @@ namespace {
 namespace robot = compiler::rules;
 namespace robot_texts = compiler::texts;
 
-/// The rules that say something about structured programs, too; of what the others are about,
-/// structured/meaning/ knows more.
+/// The rules that also apply to structured programs; structured/meaning/ covers the subjects of the
+/// others.
 bool is_told(const Diagnostic& found) {
   for (const auto* told : {&robot::ValueOutOfRange,  &robot::DivisionByZero,  &robot::UnknownFlags,
                            &robot::MissingGo,        &robot::NewerThanTarget, &robot::ReadPastData,
@@ -35,7 +35,7 @@ bool is_told(const Diagnostic& found) {
                            &robot::EarlySensor,      &robot::ExtraTurn})
     if (found.rule == told)
       return true;
-  const auto& message = found.message; // of these two rules the rest is about one language
+  const auto& message = found.message; // their other texts are about orbBasic only
   return message.is(robot_texts::NoRollLeadsThere) || message.is(robot_texts::NeverLess) ||
          message.is(robot_texts::NeverMore) || message.is(robot_texts::EndsAfterOne);
 }
@@ -74,7 +74,8 @@ private:
     program_.diagnostics.push_back(std::move(found));
   }
 
-  /// What happens for certain there was already said to be possible: whether that became an error.
+  /// Raises a possible fault, reported earlier, to an error because it is certain; returns true if
+  /// there was one.
   bool raise_what_was_feared(const Statement& statement) {
     for (auto& other : program_.diagnostics)
       if (other.span.begin >= statement.span.begin && other.span.end <= statement.span.end &&
@@ -85,25 +86,25 @@ private:
     return false;
   }
 
-  /// Whether a number is written there, which may be exchanged.
+  /// True if the span is a literal number, which may be replaced.
   bool is_typed(Span span) const {
     return span.size() == 0 || is_digit(program_.text[span.begin]) ||
            program_.text[span.begin] == '-';
   }
 
-  /// A time that names its unit is meant.
+  /// True if a time has an explicit unit and is therefore intended.
   bool has_unit(const Diagnostic& found) const {
     const auto text = program_.text_of(found.span);
     return found.rule == &robot::WrongUnit && is_digit(text.front()) && is_letter(text.back());
   }
 
-  /// Lowering turns tests round: whether one holds says nothing of the source.
+  /// True for notes about tests: lowering inverts tests, so these do not match the source.
   static bool is_of_test(const Note& note) {
     return note.message.is(robot_texts::WhenThisHolds) ||
            note.message.is(robot_texts::WhenThisDoesNotHold);
   }
 
-  /// Whether that, or worse, is said of the statement already.
+  /// True if the same or a more severe finding is already reported for the statement.
   bool is_said(const Diagnostic& found, const Statement& statement) const {
     return std::any_of(
         program_.diagnostics.begin(), program_.diagnostics.end(), [&](const Diagnostic& other) {
@@ -114,14 +115,14 @@ private:
         });
   }
 
-  /// Whether it is about an index of the robot's only list.
+  /// True if it is about an index of the robot's only list.
   static bool is_of_array(const Diagnostic& found) {
     return found.message.is(robot_texts::UsedWhileIndexIs) ||
            found.message.is(robot_texts::UsedWhileIndexCanBe) ||
            found.message.is(robot_texts::UsedWhileIndexBecomes);
   }
 
-  /// Letters and line numbers of the robot say nothing to whoever wrote names.
+  /// Replaces letters and line numbers of the robot by terms of the source.
   void put_into_source_words(Diagnostic& found, const Statement& statement) const {
     if (found.rule == &robot::BusyLoop)
       found.message = texts::NeverWaits();
@@ -159,7 +160,7 @@ private:
     return arrays;
   }
 
-  /// An index, in words of the array that the source has.
+  /// Rewords a finding about an index to name the array of the source.
   void tell_of_index(Diagnostic& found, const Statement& statement) const {
     const auto arrays = arrays_of(statement);
     found.help = {};
@@ -171,7 +172,7 @@ private:
                         : texts::AnIndexCanLeave();
   }
 
-  /// A copy of a sensor: the loop is to read the sensor itself.
+  /// Explains that a loop must read the sensor itself instead of a copy.
   void tell_of_copy(Diagnostic& found, const Statement& statement) const {
     found.help = texts::ReadInLoop();
     if (found.notes.empty() || statement.kind != Kind::Assign)
@@ -186,8 +187,8 @@ private:
                                                           test.substr(token.at + name.size())));
   }
 
-  /// The `delay` between a roll and the last statement, if no block is on the way and no other one
-  /// is there; else that statement.
+  /// The only `delay` between a roll and the last statement, if no block intervenes; else the last
+  /// statement.
   const Statement* only_wait_below(const Statement& roll, const Statement& last) const {
     const Statement* found = nullptr;
     for (const auto* one = &roll + 1; one <= &last; ++one) {
@@ -200,7 +201,7 @@ private:
     return found != nullptr ? found : &last;
   }
 
-  /// A line that stops the ball in the direction in which it rolls.
+  /// Proposes a line that stops the ball in its rolling direction.
   void tell_of_stop(Diagnostic& found, const Statement& statement) const {
     std::string_view heading = "0";
     const auto* place = &statement;
@@ -214,7 +215,7 @@ private:
       }
     auto line = fmt::format("goroll {}, 0, 0", heading);
     const std::string end(line_end_of(program_.text));
-    const bool waits = // somewhere; else the linter adds a wait, too
+    const bool waits = // somewhere; otherwise the linter adds a wait, too
         std::any_of(lines_.statements.begin(), lines_.statements.end(), [](const auto& one) {
           return spec::info(one.kind).after == spec::After::Waits;
         });
@@ -238,7 +239,7 @@ private:
                     Safety::Unsafe};
   }
 
-  /// What a line takes away where it sets a variable to the sum at `span`; 0 where it adds.
+  /// The amount subtracted by the assignment whose sum is at `span`; 0 if it adds.
   std::int32_t taken_away(Span span) const {
     const auto sum =
         std::find_if(lines_.items.begin(), lines_.items.end(), [&](const compiler::Item& one) {
@@ -252,7 +253,7 @@ private:
     return subtracts ? lines_.nodes[sum->value - 1].value : 0;
   }
 
-  /// The greatest value that a message names last.
+  /// The limit, named last in a message.
   static std::int32_t limit_in(const Message& message) {
     return static_cast<std::int32_t>(std::stol(message.fillers().back().words()));
   }
@@ -267,7 +268,7 @@ private:
       sum = fmt::format("{} {} {}", name,
                         spec::info(static_cast<spec::Operator>(statement.operation)).symbol,
                         sum.find(' ') == std::string::npos ? sum : fmt::format("({})", sum));
-    // The remainder of a value below 0 is below 0, too.
+    // The remainder of a negative value is negative, so add a turn first.
     const auto turn = found.rule == &robot::HeadingGrows
                           ? spec::info(spec::Statement::Goroll).parameters()[0].greatest + 1
                           : limit_in(found.message) + 1;

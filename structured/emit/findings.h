@@ -6,8 +6,8 @@
 
 namespace orb::structured {
 
-/// Adds what the linter finds in a program: values that are wrong, loops that never wait, a ball
-/// left driving. `lines` is the program as source_lines() gives it.
+/// Adds the findings of the linter: bad values, loops that never wait, a ball left driving. `lines`
+/// is the program as made by source_lines().
 void find_meaning(Program& program, const Names& names, const compiler::Program& lines,
                   const compiler::Target& target);
 

@@ -12,7 +12,7 @@ namespace {
 constexpr std::uint8_t index_letter = 24; // Y
 static_assert(index_letter + 1 == spec::value_of(spec::Limit::DirectVariables));
 
-/// Colours the classes; false where the letters do not suffice.
+/// Colours the classes; returns false if there are too few letters.
 class Colouring {
 public:
   Colouring(const Classes& classes, const std::vector<bool>& used,
@@ -43,7 +43,7 @@ public:
 private:
   void find_neighbours(std::size_t variables) {
     neighbours_.resize(variables);
-    std::vector<std::uint32_t> last(variables, none); // that a class was found to be next to
+    std::vector<std::uint32_t> last(variables, none); // the class that last counted it
     for (const auto root : roots_)
       each_member(classes_.edges(root), [&](std::uint32_t v) {
         const auto other = classes_.find(v);
@@ -54,7 +54,7 @@ private:
       });
   }
 
-  /// Those with few neighbours last: they find a letter whatever the others have.
+  /// Orders those with few neighbours last: they always find a letter.
   std::vector<std::uint32_t> order() const {
     constexpr auto gone = std::numeric_limits<std::size_t>::max();
     std::vector<std::size_t> degree(neighbours_.size());
@@ -105,11 +105,11 @@ private:
 
 } // namespace
 
-Letters choose_letters(const Code& code, const std::vector<std::uint8_t>& wishes) {
+LetterAllocation choose_letters(const Code& code, const std::vector<std::uint8_t>& wishes) {
   const Interference interference(code);
   const auto count = code.variables.size();
   const bool index_used = interference.used[index_variable];
-  Letters letters;
+  LetterAllocation letters;
   letters.of.assign(count, no_letter);
   letters.available = static_cast<std::uint32_t>(spec::value_of(spec::Limit::DirectVariables)) -
                       (index_used ? 1 : 0);

@@ -7,22 +7,21 @@
 
 namespace orb::structured {
 
-/// Which letter of the robot holds each variable: 0 for A to 24 for Y, `no_letter` for a variable
-/// that nothing uses.
+/// The robot's letter of each variable: 0 for A to 24 for Y, `no_letter` for an unused variable.
 inline constexpr std::uint8_t no_letter = 0xFF;
 
-struct Letters {
+struct LetterAllocation {
   std::vector<std::uint8_t> of; ///< of each variable
-  /// Where letters do not suffice: a line at which more variables are in use than there are
-  /// letters, and those variables. Empty otherwise.
+  /// If there are too few letters: a line with more live variables than letters, and those
+  /// variables. Empty otherwise.
   std::uint32_t crowded_line = none;
   std::vector<std::uint32_t> crowd;
   std::uint32_t available = 0;
 };
 
-/// Gives letters by lifetimes: two variables share one where neither is needed while the other is
-/// set. Copies share where they can, and so vanish. `wishes` holds the letter that each variable
-/// would like, or `no_letter`.
-Letters choose_letters(const Code& code, const std::vector<std::uint8_t>& wishes);
+/// Allocates letters by liveness: two variables share one if neither is live when the other is set.
+/// Copies share a letter if possible, and so disappear. `wishes` holds the preferred letter of each
+/// variable, or `no_letter`.
+LetterAllocation choose_letters(const Code& code, const std::vector<std::uint8_t>& wishes);
 
 } // namespace orb::structured

@@ -6,7 +6,7 @@
 namespace orb::structured {
 namespace {
 
-/// What the main program or a sub is called.
+/// The name of the main program or of a sub.
 std::string part_name(const Compiled& compiled, std::uint32_t routine) {
   const auto symbol = compiled.names.routines[routine].symbol;
   if (symbol == none)

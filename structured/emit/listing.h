@@ -7,8 +7,8 @@
 
 namespace orb::structured {
 
-/// Each line of the source with the lines of the image that it becomes and their bytes, in the
-/// image's order; then the bytes of the main program and of each sub, wherever they stand.
+/// Prints each source line with the image lines compiled from it and their bytes, in the order of
+/// the image; then the total bytes of the main program and of each sub.
 std::string listing(const Compiled& compiled, const compiler::Image& image);
 
 } // namespace orb::structured

@@ -13,12 +13,14 @@ namespace {
 
 using spec::Operator;
 
-/// Whether something follows in the same bracket, which a function would take for its operand.
+/// Tells if something follows within the same brackets, which a function would take as part of its
+/// operand.
 enum class After : std::uint8_t { Nothing, Something };
 
 class Printer {
 public:
-  Printer(const Program& program, const Code& code, const Letters& letters, Numbering numbering)
+  Printer(const Program& program, const Code& code, const LetterAllocation& letters,
+          Numbering numbering)
       : program_(program), code_(code), letters_(letters), numbering_(numbering) {}
 
   RobotText run(RobotComments* comments) {
@@ -50,7 +52,7 @@ private:
   void number_labels() {
     numbers_.assign(code_.labels, 0);
     size_ = static_cast<std::uint32_t>(code_.lines.size());
-    // An `end` at the very end that nothing leads to says nothing.
+    // Omit a final `end` that is not a jump target.
     if (size_ > 1 && ends_program(code_.lines[size_ - 1]) &&
         code_.lines[size_ - 2].kind != LineKind::Label)
       --size_;
@@ -221,7 +223,7 @@ private:
     whole(relation.right);
   }
 
-  /// A term and a number added to it.
+  /// Prints a term plus a number.
   void side(std::uint32_t term, std::int32_t added) {
     const auto& node = code_.terms[term];
     if (node.kind == TermKind::Number) {
@@ -232,7 +234,7 @@ private:
       whole(term);
       return;
     }
-    // x - 1 and one more is x
+    // x - 1 plus 1 is x
     if (node.kind == TermKind::Binary && code_.is_number(node.right)) {
       const auto op = static_cast<Operator>(node.what);
       const auto sign = op == Operator::Add ? 1 : -1;
@@ -304,7 +306,7 @@ private:
 
   const Program& program_;
   const Code& code_;
-  const Letters& letters_;
+  const LetterAllocation& letters_;
   Numbering numbering_;
   RobotText result_;
   std::vector<std::uint32_t> numbers_; ///< of each label
@@ -313,7 +315,7 @@ private:
 
 } // namespace
 
-RobotText print(const Program& program, const Code& code, const Letters& letters,
+RobotText print(const Program& program, const Code& code, const LetterAllocation& letters,
                 Numbering numbering, RobotComments* comments) {
   return Printer(program, code, letters, numbering).run(comments);
 }

@@ -19,7 +19,7 @@ namespace {
 namespace robot = compiler::rules;
 namespace robot_texts = compiler::texts;
 
-/// The largest parts of the program, in bytes.
+/// Lists the largest parts of the program, in bytes.
 Message largest_parts(const Compiled& compiled) {
   std::map<std::uint32_t, std::uint32_t> bytes;
   const auto& lines = compiled.image.lines;

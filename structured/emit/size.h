@@ -5,11 +5,10 @@
 
 namespace orb::structured {
 
-/// Says so where the packed lines of a program do not fit into the robot, or not into the oldest
-/// ones.
+/// Reports that the packed lines of a program do not fit into the robot, or only into newer ones.
 void check_size(Compiled& compiled, const compiler::Target& target);
 
-/// Says that a program is far too large for any robot.
+/// Reports that a program is far too large for any robot.
 void report_too_large(Compiled& compiled, const compiler::Target& target);
 
 } // namespace orb::structured

@@ -11,6 +11,8 @@ namespace {
 
 using spec::Operator;
 
+/// Builds the program for the linter. Large because each kind of line, condition and item has its
+/// own writer.
 class SourceLines {
 public:
   SourceLines(const Program& program, const Code& code)
@@ -23,7 +25,7 @@ public:
     find_reached();
     for (std::size_t i = 0; i < code_.lines.size(); ++i)
       if (!reached_[i] && code_.lines[i].kind != LineKind::Label)
-        continue; // a test of numbers leads past it
+        continue; // a constant test skips it
       else if (goes_around_jump(i))
         write_jump(code_.lines[i], code_.lines[i + 1].label), ++i;
       else if (!is_idle(i))
@@ -35,10 +37,10 @@ public:
   }
 
 private:
-  static constexpr std::uint32_t unknown = compiler::most_letters - 1; ///< is set, and never read
+  static constexpr std::uint32_t unknown = compiler::most_letters - 1; ///< set but never read
 
-  /// Variables get letters in turn, the index the robot's own: first those that loops count in,
-  /// then those that have names. Of others that there are too many of nothing is known.
+  /// Assigns letters in turn, with the robot's own for the index: first to loop counters, then to
+  /// named variables. Variables beyond the limit are treated as unknown.
   void find_letters() {
     out_.letters = compiler::most_letters;
     letter_of_.resize(code_.variables.size(), unknown);
@@ -59,7 +61,7 @@ private:
       letter_of_[variable] = next_letter_++;
   }
 
-  /// Marks the lines that can run, where tests of numbers have but one answer.
+  /// Marks the reachable lines, given that tests of constants have only one result.
   void find_reached() {
     std::vector<std::uint32_t> line_of(code_.labels, none);
     for (std::uint32_t i = 0; i < code_.lines.size(); ++i)
@@ -88,7 +90,7 @@ private:
     }
   }
 
-  /// Whether a label stands at line `i`, or below it with other labels.
+  /// True if a label is at line `i`, or below it after other labels.
   bool is_label_at(std::size_t i, std::uint32_t label) const {
     for (; i < code_.lines.size() && code_.lines[i].kind == LineKind::Label; ++i)
       if (code_.lines[i].label == label)
@@ -96,15 +98,15 @@ private:
     return false;
   }
 
-  /// Whether a test leads around a jump right below it, as that of `if … then exit` does.
+  /// True if a test skips a jump right below it, as in `if … then exit`.
   bool goes_around_jump(std::size_t i) const {
     const auto& line = code_.lines[i];
     return line.kind == LineKind::If && code_.lines[i + 1].kind == LineKind::Goto &&
            is_label_at(i + 2, line.label);
   }
 
-  /// Whether a line does nothing: a jump to the next one, or a number for a counter that its loop
-  /// sets to it anyway.
+  /// True if the line has no effect: a jump to the next line, or an initial value for a counter
+  /// that its loop sets anyway.
   bool is_idle(std::size_t i) const {
     const auto& line = code_.lines[i];
     if (line.kind == LineKind::Goto)
@@ -146,7 +148,7 @@ private:
     return n;
   }
 
-  /// Where a term was written; the statement for one that nobody wrote.
+  /// The source span of a term; for a generated term, the statement.
   Span span_of(std::uint32_t index) const {
     const auto& source = code_.terms[index].source;
     return source.size() > 0 ? source : here_;
@@ -199,7 +201,7 @@ private:
 
   // ---- statements
 
-  /// Begins a statement; what is added to items and nodes until end() is its.
+  /// Begins a statement; items and nodes added before end() belong to it.
   std::uint32_t begin(spec::Statement kind) {
     auto& statement = out_.statements.emplace_back();
     statement.kind = kind;
@@ -230,7 +232,7 @@ private:
 
   const Statement& origin(const CodeLine& line) const { return program_.statements[line.origin]; }
 
-  /// Where the variable stands that an assignment, a loop or `read` sets.
+  /// The span of the variable set by an assignment, a loop or `read`.
   Span place_of(const CodeLine& line, std::uint32_t variable) const {
     for (const auto& part : program_.items_of(origin(line)))
       if (part.kind == structured::ItemKind::Place && code_.variables[variable].symbol != none)
@@ -286,7 +288,7 @@ private:
     }
     case LineKind::Print: return write_print(line);
     case LineKind::Do: return write_do(line);
-    case LineKind::Nothing: // what lowering does not write, or is written elsewhere
+    case LineKind::Nothing: // not produced by lowering, or written elsewhere
     case LineKind::Label:
     case LineKind::If:
     case LineKind::Switch:
@@ -360,7 +362,7 @@ private:
     add_branch(test, label);
   }
 
-  /// A jump that a test leads around: to `label` where the test fails.
+  /// Writes the jump that a test skips: to `label` if the test fails.
   void write_jump(const CodeLine& line, std::uint32_t label) {
     here_ = origin(line).span;
     word_ = origin(line).word;
@@ -374,7 +376,7 @@ private:
     go_to(label);
   }
 
-  /// What a comparison of two numbers says.
+  /// The result of comparing two constants.
   std::optional<bool> answer_of(const Relation& relation) const {
     if (!code_.is_number(relation.left) || !code_.is_number(relation.right))
       return std::nullopt;
@@ -384,7 +386,8 @@ private:
     return (orders_of(relation.comparison) & order) != 0;
   }
 
-  /// In the order of the source; of `<=` and `>=`, which the robot lacks, one side moves by one.
+  /// Writes a relation in source order; for `<=` and `>=`, which the robot lacks, adjusts one side
+  /// by one.
   void write_relation(Relation relation) {
     if (span_of(relation.right).begin < span_of(relation.left).begin) {
       std::swap(relation.left, relation.right);
@@ -454,9 +457,9 @@ private:
   compiler::Program out_;
   std::vector<std::uint32_t> letter_of_; ///< of each variable
   std::uint32_t next_letter_ = 0;
-  std::vector<bool> reached_;            ///< of each line
-  std::vector<std::uint32_t> number_of_; ///< of each label the line that it stands above
-  Span here_;                            ///< the statement that is written
+  std::vector<bool> reached_;            ///< by line
+  std::vector<std::uint32_t> number_of_; ///< of each label, the line below it
+  Span here_;                            ///< the current statement
   Span word_;                            ///< its word
 };
 

@@ -6,9 +6,9 @@
 
 namespace orb::structured {
 
-/// A program that has been lowered, and nothing more, as the linter of numbered programs reads one:
-/// lines without a text of their own, whose statements and values are those of the source. It
-/// refers to the text of `program`.
+/// Converts a lowered, unoptimised program for the linter of numbered programs: its lines have no
+/// text, and their statements and values refer to the source. The result refers to the text of
+/// `program`.
 compiler::Program source_lines(const Program& program, const Code& code);
 
 } // namespace orb::structured

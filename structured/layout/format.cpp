@@ -2,7 +2,7 @@
 
 #include "base/text/utf8.h"
 #include "structured/layout/layout.h"
-#include "structured/text/parse.h"
+#include "structured/text/parse_structured.h"
 
 namespace orb::structured {
 

@@ -1,7 +1,7 @@
 #include "structured/layout/layout.h"
 
 #include "base/text/utf8.h"
-#include "structured/text/words.h"
+#include "structured/text/structured_words.h"
 
 #include <algorithm>
 #include <utility>
@@ -17,7 +17,7 @@ struct Token {
   std::string_view text;
 };
 
-/// The tokens of one line of the text.
+/// Splits one line of the text into tokens.
 std::vector<Token> tokens_of(std::string_view line) {
   std::vector<Token> tokens;
   for (std::size_t i = 0; i < line.size();) {
@@ -73,7 +73,7 @@ bool is_sign(const Token& token, std::string_view signs) {
          signs.find(token.text) != std::string_view::npos;
 }
 
-/// Whether an operand has just ended, so that a minus sign after it is an operator.
+/// True if the token ends an operand, so that a minus sign after it is an operator.
 bool ends_operand(const Token& token) {
   if (token.kind == TokenKind::Word) {
     const auto kind = find_word(token.text).kind;
@@ -96,9 +96,9 @@ public:
         text_(std::string_view(program.text).substr(0, program.files.front().end)) {}
 
   std::vector<LaidLine> run() {
-    std::uint32_t next = 0; // the statement that begins next
+    std::uint32_t next = 0; // the next statement
     bool blank_pending = false;
-    bool inside = false; // the line goes on from the one before
+    bool inside = false; // the line continues the one before
     for (auto at = byte_order_mark_size(text_); at < text_.size();) {
       auto end = at;
       while (end < text_.size() && !is_line_end(text_[end]))
@@ -127,7 +127,7 @@ public:
   }
 
 private:
-  /// Steps over the statements that begin before `end`; returns the level of the first of them.
+  /// Skips the statements that begin before `end`; returns the level of the first of them.
   std::size_t begin_statements(std::uint32_t& next, std::size_t end) {
     std::size_t level = level_;
     bool first = true;
@@ -155,12 +155,12 @@ private:
     return level;
   }
 
-  /// Whether a statement is only the end of an `if` on one line.
+  /// True if the statement only ends a one-line `if`.
   bool ends_line(std::uint32_t i) const {
     return program_.statements[i].kind == Kind::EndIf && program_.statements[i].one_line;
   }
 
-  /// Whether a statement goes on in the next line.
+  /// True if the statement continues on the next line.
   bool goes_on(const std::vector<Token>& tokens, bool inside) {
     const Token* last = nullptr;
     for (const auto& token : tokens) {
@@ -207,7 +207,7 @@ private:
                                            : token.text;
   }
 
-  /// Whether no blank stands before token `i`.
+  /// True if there is no space before token `i`.
   static bool joined(const std::vector<Token>& tokens, std::size_t i) {
     const auto& token = tokens[i];
     const auto& before = tokens[i - 1];

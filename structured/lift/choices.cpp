@@ -10,7 +10,8 @@ const compiler::Item& LiftedChoices::selector(std::uint32_t step) const {
   return program_.as<compiler::OnView>(statement_of(program_, ways_, step)).selector;
 }
 
-/// Where no line may be found, the value is named once more, and a sum would be computed again.
+/// If an `on` may find no line, its value is used again, so an expression must be kept in a
+/// variable.
 bool LiftedChoices::needs_helper(std::uint32_t step) const {
   return !covered_[step] && program_.nodes[selector(step).value].kind != compiler::NodeKind::Letter;
 }
@@ -49,7 +50,7 @@ std::vector<std::string> LiftedChoices::calls(std::uint32_t step) {
   for (std::size_t i = 0; i < targets.size(); ++i) {
     if (std::find(targets.begin(), targets.begin() + static_cast<std::ptrdiff_t>(i), targets[i]) !=
         targets.begin() + static_cast<std::ptrdiff_t>(i))
-      continue; // with an earlier one
+      continue; // merged with an earlier one
     std::vector<std::size_t> values;
     for (std::size_t n = i; n < targets.size(); ++n)
       if (targets[n] == targets[i])
@@ -62,7 +63,7 @@ std::vector<std::string> LiftedChoices::calls(std::uint32_t step) {
   return lines;
 }
 
-const std::string& sub_at(const Ways& ways, const LiftedNames& names, std::uint32_t step) {
+const std::string& sub_at(const ControlFlow& ways, const LiftedNames& names, std::uint32_t step) {
   const auto& subs = ways.subroutines;
   return names.sub(
       static_cast<std::size_t>(std::lower_bound(subs.begin(), subs.end(), step) - subs.begin()));

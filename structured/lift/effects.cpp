@@ -12,7 +12,7 @@ bool is_number(const compiler::Program& program, std::uint32_t node, std::int32_
   return leaf.kind == compiler::NodeKind::Number && leaf.value >= least;
 }
 
-/// Whether a node itself, its operands apart, can stop the program or changes what it reads.
+/// True if the node itself, apart from its operands, can stop the program or has side effects.
 bool node_acts(const compiler::Program& program, std::uint32_t n) {
   const auto& node = program.nodes[n];
   switch (node.kind) {
@@ -51,7 +51,7 @@ bool acts(const compiler::Program& program, const compiler::Item& item) {
   return false;
 }
 
-std::vector<bool> prepared_tests(const compiler::Program& program, const Ways& ways) {
+std::vector<bool> prepared_tests(const compiler::Program& program, const ControlFlow& ways) {
   std::vector<bool> prepared(ways.steps.size(), false);
   for (std::size_t s = 0; s < ways.steps.size(); ++s) {
     const auto& statement = program.statements[ways.steps[s].statement];

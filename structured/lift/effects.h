@@ -1,15 +1,15 @@
 #pragma once
 
-#include "structured/lift/ways.h"
+#include "structured/lift/control_flow.h"
 
 #include <vector>
 
 namespace orb::structured::lifting {
 
-/// Whether computing a value can stop the program or changes what it reads.
+/// True if computing a value can stop the program or has side effects.
 bool acts(const compiler::Program& program, const compiler::Item& item);
 
-/// By step of an `if`: both its sides are computed before one is looked at, and that shows.
-std::vector<bool> prepared_tests(const compiler::Program& program, const Ways& ways);
+/// By step of an `if`: true if it matters that both sides are computed before one is tested.
+std::vector<bool> prepared_tests(const compiler::Program& program, const ControlFlow& ways);
 
 } // namespace orb::structured::lifting

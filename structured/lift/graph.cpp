@@ -9,9 +9,9 @@ namespace {
 
 // ---- from steps to nodes
 
-class Builder {
+class GraphBuilder {
 public:
-  Builder(const compiler::Program& program, const Ways& ways, std::uint32_t first)
+  GraphBuilder(const compiler::Program& program, const ControlFlow& ways, std::uint32_t first)
       : program_(program), ways_(ways), first_(first) {
     graph_.is_main = first == none;
     graph_.nodes.push_back({NodeKind::Exit, none, none, {}, {}});
@@ -61,7 +61,7 @@ private:
     return leaves ? NodeKind::Empty : NodeKind::Stop;
   }
 
-  /// Where a jump without a comment leads in the end; one that leads to itself stays.
+  /// The final target of a jump, through other jumps without a comment; stays at a jump to itself.
   std::uint32_t thread(std::uint32_t step) const {
     for (std::size_t jumps = 0; jumps < ways_.steps.size() && step != ways_.end(); ++jumps) {
       const auto& jump = ways_.steps[step];
@@ -141,25 +141,25 @@ private:
   }
 
   const compiler::Program& program_;
-  const Ways& ways_;
+  const ControlFlow& ways_;
   std::uint32_t first_;
   Graph graph_;
   std::map<std::uint32_t, std::uint32_t> node_of_step_;
-  std::map<std::uint32_t, std::uint32_t> heads_; ///< of the loop that a step begins
+  std::map<std::uint32_t, std::uint32_t> heads_; ///< the loop head for a step
   std::uint32_t after_last_ = none;
 };
 
 // ---- order, dominators, loops
 
-/// Reverse postorder in which, where there is a choice, what stands first in the text comes first.
+/// Computes reverse postorder, preferring text order where there is a choice.
 std::vector<std::uint32_t> order_nodes(Graph& graph) {
   std::vector<std::uint32_t> order;
   std::vector<std::uint8_t> state(graph.nodes.size(), 0);
-  struct Open {
+  struct OpenNode {
     std::uint32_t node;
-    std::vector<std::uint32_t> rest; ///< successors to be visited, the last first
+    std::vector<std::uint32_t> rest; ///< successors to visit, the last one first
   };
-  std::vector<Open> path;
+  std::vector<OpenNode> path;
   const auto open = [&](std::uint32_t n) {
     state[n] = 1;
     auto rest = graph.nodes[n].successors;
@@ -271,8 +271,8 @@ void find_loops(Graph& graph, const std::vector<std::uint32_t>& order) {
   }
 }
 
-/// Two loops that begin at the same node, one inside the other, share their head: the outer one
-/// gets a head of its own. False where there is none.
+/// Gives the outer of two loops with the same start a separate head. Returns false if there are no
+/// such loops.
 bool part_heads(Graph& graph) {
   for (const auto& loop : graph.loops) {
     if (loop.latches.size() < 2 || graph.nodes[loop.head].kind == NodeKind::Head)
@@ -316,8 +316,8 @@ bool Graph::dominates(std::uint32_t above, std::uint32_t below) const {
   return above == below;
 }
 
-Graph make_graph(const compiler::Program& program, const Ways& ways, std::uint32_t first) {
-  auto graph = Builder(program, ways, first).build();
+Graph make_graph(const compiler::Program& program, const ControlFlow& ways, std::uint32_t first) {
+  auto graph = GraphBuilder(program, ways, first).build();
   do {
     for (auto& node : graph.nodes) {
       node.predecessors.clear();

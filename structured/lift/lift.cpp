@@ -3,11 +3,11 @@
 #include "compiler/text/rules.h"
 #include "structured/compile.h"
 #include "structured/lift/choices.h"
-#include "structured/lift/text.h"
+#include "structured/lift/write_text.h"
 #include "structured/lower/lower.h"
 #include "structured/meaning/check.h"
 #include "structured/optimise/jumps.h"
-#include "structured/optimise/values.h"
+#include "structured/optimise/known_values.h"
 #include "structured/text/read.h"
 #include "structured/text/rules.h"
 #include "structured/text/texts.h"
@@ -20,8 +20,8 @@ namespace {
 using lifting::LiftedText;
 using lifting::Proofs;
 
-/// Looks at a lifted program with the eyes of the compiler: which of its loops count at least once,
-/// and which of its choices always find a case.
+/// Analyses a lifted program with the compiler: proves which loops run at least once, and which
+/// selects always find a case.
 class Prover {
 public:
   explicit Prover(const LiftedText& lifted) : lifted_(lifted) {
@@ -31,7 +31,7 @@ public:
     check(program_, names_, {});
   }
 
-  /// True where all loops of the text are proven; the others are marked in `proofs`.
+  /// Returns true if all loops of the text are proven; marks the others in `proofs`.
   bool prove_loops(Proofs& proofs) {
     lower_plainly();
     bool all = true;
@@ -70,7 +70,9 @@ private:
     plan.native.assign(program_.statements.size(), true);
     code_ = lower(program_, names_, plan);
     clean_jumps(code_);
-    use_values(code_, Ways::AsTheyAre); // else a test could go where only one way passes it
+    use_values(
+        code_,
+        BranchChanges::AsTheyAre); // otherwise a test could be threaded away on one path only
     clean_jumps(code_);
   }
 
@@ -80,7 +82,7 @@ private:
     });
   }
 
-  /// Whether the test before a loop, which would skip it, has gone.
+  /// True if the entry test of a loop was optimised away.
   bool counts(std::uint32_t loop) const {
     const auto span = program_.statements[loop].span;
     const bool nested = std::any_of(
@@ -98,8 +100,8 @@ private:
   Code code_;
 };
 
-/// The same text with its loops and choices as plain as can be proven.
-LiftedText write_plainly(const compiler::Program& program, const lifting::Ways& ways,
+/// Writes the text with the simplest loops and selects that can be proven.
+LiftedText write_plainly(const compiler::Program& program, const lifting::ControlFlow& ways,
                          const lifting::Comments& comments,
                          const std::vector<lifting::Graph>& graphs) {
   Proofs proofs{std::vector<bool>(ways.steps.size(), true),
@@ -108,7 +110,7 @@ LiftedText write_plainly(const compiler::Program& program, const lifting::Ways& 
     auto lifted = lifting::write_text(program, ways, comments, graphs, proofs);
     Prover prover(lifted);
     if (!prover.prove_loops(proofs))
-      continue; // each turn takes one `for` away at least
+      continue; // terminates: each round gives up at least one `for`
     if (lifted.choices.empty())
       return lifted;
     prover.prove_choices(proofs);
@@ -116,7 +118,7 @@ LiftedText write_plainly(const compiler::Program& program, const lifting::Ways& 
   }
 }
 
-void report_left_out(const compiler::Program& program, const lifting::Ways& ways,
+void report_left_out(const compiler::Program& program, const lifting::ControlFlow& ways,
                      std::vector<Diagnostic>& findings) {
   for (const auto& step : ways.steps)
     if (step.begins_line && !step.reached) {
@@ -126,7 +128,7 @@ void report_left_out(const compiler::Program& program, const lifting::Ways& ways
     }
 }
 
-/// Says what the compiler has against a lifted text, if it has anything.
+/// Reports the compiler's first error in a lifted text, if there is one.
 void report_refused(const compiler::Program& program, const LiftedText& lifted,
                     std::vector<Diagnostic>& findings) {
   NoFiles files;

@@ -16,7 +16,7 @@ using compiler::StatementNode;
 using spec::Operator;
 using spec::Statement;
 
-/// A time as people say it.
+/// A duration in the customary unit.
 std::string duration(std::int32_t ms) {
   return ms >= 1000 && ms % 100 == 0 ? thousandths_text(ms) + "s" : fmt::format("{}ms", ms);
 }
@@ -75,7 +75,7 @@ private:
     return node.kind == compiler::NodeKind::Number ? duration(node.value) : values_.text(item);
   }
 
-  /// `v = v + e` is `v += e`.
+  /// Writes `v = v + e` as `v += e`.
   std::string assignment(const compiler::Item& variable, const compiler::Item& expression) {
     const auto root = expression.value;
     const auto& node = program_.nodes[root];
@@ -97,7 +97,7 @@ private:
     return fmt::format("{} = {}", values_.place(variable), values_.text(expression));
   }
 
-  /// What `goroll` of old programs does without its third value, where the speed tells.
+  /// The go value that `goroll` of old programs implies if the speed is known.
   std::string go_value(std::span<const compiler::Item> items) const {
     const auto speed = compiler::number_in(program_, items[1]);
     if (items.size() != 2 || !speed)
@@ -105,7 +105,7 @@ private:
     return *speed > 0 ? ", 1" : ", 0";
   }
 
-  /// The first line of the program is `restart`; no line is nothing.
+  /// Writes `sleep`: a wake-up at the first line is `restart`; no line is omitted.
   std::string sleep(const StatementNode& statement) {
     const auto view = program_.as<compiler::SleepView>(statement);
     auto text = fmt::format("sleep {}", values_.text(view.seconds));
@@ -122,7 +122,7 @@ private:
       const auto& item = items[i];
       const auto before = i == 0 ? ItemKind::Semicolon : items[i - 1].kind;
       if (item.kind == ItemKind::Comma) {
-        text += i + 1 == items.size() ? " \" \"" : ","; // a comma at the end would go on below
+        text += i + 1 == items.size() ? " \" \"" : ","; // a final comma would continue the line
       } else if (item.kind == ItemKind::Semicolon) {
         text += ";";
       } else if (item.kind == ItemKind::String) {
@@ -131,7 +131,7 @@ private:
         text += fmt::format(" ${}", values_.operand(item.value));
       } else {
         const auto shown = values_.text(item);
-        // What stands in parentheses after a name would be its arguments.
+        // Parentheses after a name would be its arguments.
         const bool calls = shown.front() == '(' &&
                            (before == ItemKind::Expression || before == ItemKind::Character);
         text += fmt::format("{} {}", calls ? ";" : "", shown);

@@ -1,12 +1,12 @@
 #pragma once
 
-#include "structured/lift/values.h"
+#include "structured/lift/lifted_values.h"
 
 #include <string>
 
 namespace orb::structured::lifting {
 
-/// A statement that neither calls nor decides what is next, in the words of a structured program.
+/// The text of a statement that neither calls nor branches, as structured orbBasic.
 std::string statement_text(const compiler::Program& program,
                            const compiler::StatementNode& statement, LiftedValues& values);
 

@@ -78,7 +78,7 @@ std::vector<std::string> LiftedTests::prepare(std::uint32_t step) {
   return lines;
 }
 
-// ---- loops that are no `for`
+// ---- loops that cannot be a `for`
 
 std::vector<std::string> LiftedTests::begin_loop(std::uint32_t step) {
   const auto loop = program_.as<compiler::ForView>(statement_of(program_, ways_, step));
@@ -104,7 +104,7 @@ std::string LiftedTests::is_over(std::uint32_t step, bool negated) {
                      sign_of(relation, negated), end_of(step, loop));
 }
 
-/// The end of a loop: a number, or the variable that keeps it.
+/// The end of a loop: a number, or the variable that stores it.
 std::string LiftedTests::end_of(std::uint32_t step, const compiler::ForView& loop) {
   if (ends_at_number(program_, loop))
     return values_.text(loop.end);

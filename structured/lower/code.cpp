@@ -21,7 +21,7 @@ std::uint8_t saturated(int levels) {
   return static_cast<std::uint8_t>(std::min(levels, 250));
 }
 
-/// Whether a shift or division may stop the program.
+/// True if a shift or division may stop the program.
 bool may_fault(Operator op, const Term& right) {
   const bool divides = op == Operator::Divide || op == Operator::Remainder;
   const bool shifts = op == Operator::ShiftLeft || op == Operator::ShiftRight;
@@ -101,7 +101,7 @@ std::uint32_t Code::binary(Operator op, std::uint32_t left, std::uint32_t right)
   if (is_number(left) && (op == Operator::Add || op == Operator::Multiply) &&
       terms[left].value == idle)
     return right;
-  // A number in front saves nothing, but 0 - x in front of + can go: -5 + x is x - 5.
+  // A leading number saves nothing, but a leading 0 - x before + can go: -5 + x is x - 5.
   if (is_number(left) && op == Operator::Add && terms[left].value < 0 &&
       terms[left].value != std::numeric_limits<std::int32_t>::min())
     return binary(Operator::Subtract, right, number(-terms[left].value));
@@ -239,7 +239,7 @@ bool function_needs_parentheses(const Code& code, std::uint32_t operand) {
     return true;
   if (term.kind != TermKind::Binary)
     return false;
-  // What begins with a parenthesis reads as if it ended with it.
+  // An expression that starts with a parenthesis looks as if it ended at the closing one.
   auto first = term;
   while (first.kind == TermKind::Binary) {
     const auto& left = code.terms[first.left];

@@ -1,8 +1,9 @@
 #pragma once
 
-// A program on its way to the robot: lines of orbBasic in which variables have no letters and lines
-// no numbers yet. Terms are trees in one array; lines refer to them, to labels and to variables by
-// index. Lowering writes it, each pass of the optimiser rewrites it, the last stages print it.
+// The intermediate representation of a program: lines of orbBasic whose variables have no letters
+// and whose lines have no numbers yet. Terms are trees in one array; lines refer to them, to labels
+// and to variables by index. Lowering makes it, each pass of the optimiser rewrites it, the last
+// stages print it.
 
 #include "base/source.h"
 #include "compiler/analyse/range.h"
@@ -15,44 +16,43 @@
 
 namespace orb::structured {
 
-/// The variable that names an element: the robot's Y.
+/// The variable that selects an element: the robot's Y.
 inline constexpr std::uint32_t index_variable = 0;
 
 enum class TermKind : std::uint8_t {
   Number,   ///< `value`
   Variable, ///< `left` is a variable
-  Element,  ///< what the index names: the robot's Z
+  Element,  ///< the selected element: the robot's Z
   System,   ///< `what` is a spec::Variable
   Binary,   ///< `what` is a spec::Operator
   Call,     ///< `what` is a spec::Function, `left` its operand
 };
 
-/// What computing a term does besides giving a value. Two that share Faults or Clears keep their
-/// order.
+/// Side effects of computing a term. Two terms that share Faults or Clears must keep their order.
 namespace effect {
 inline constexpr std::uint8_t faults = 1;   ///< may stop the program
 inline constexpr std::uint8_t clears = 2;   ///< clears what it reads, or draws a random number
-inline constexpr std::uint8_t senses = 4;   ///< reads the world
+inline constexpr std::uint8_t senses = 4;   ///< reads a sensor
 inline constexpr std::uint8_t elements = 8; ///< reads an element
 } // namespace effect
 
 struct Term {
   TermKind kind = TermKind::Number;
   std::uint8_t what = 0;
-  std::uint8_t levels = 0;  ///< parentheses and functions that are open at once when it is printed
+  std::uint8_t levels = 0;  ///< nesting of parentheses and functions when printed
   std::uint8_t effects = 0; ///< bits of `effect`
   std::uint16_t size = 1;   ///< nodes of the tree
   std::uint32_t left = none;
   std::uint32_t right = none;
   std::int32_t value = 0;
-  Span source; ///< what it was written as; empty where nobody wrote it
+  Span source; ///< the source text; empty for a generated term
 };
 
 struct Relation {
   Comparison comparison = Comparison::Equal;
   std::uint32_t left = none; ///< terms
   std::uint32_t right = none;
-  compiler::Range left_range; ///< what is known of the values
+  compiler::Range left_range; ///< the range of the values
   compiler::Range right_range;
 };
 
@@ -71,13 +71,13 @@ enum class LineKind : std::uint8_t {
   SetElement, ///< element = `term`
   SetSystem,  ///< spec::Variable `variable` = `term`
   Goto,       ///< `label`
-  If,         ///< to `label` where `condition` holds
-  For,        ///< `variable` from `term` to `end` by `step`; `label` stands after it
-  Next,       ///< `variable`; to `label` while it is within the end
+  If,         ///< to `label` if `condition` holds
+  For,        ///< `variable` from `term` to `end` by `step`; `label` follows it
+  Next,       ///< `variable`; to `label` while within the end
   Gosub,      ///< `label` of routine `variable`
   Return,
-  Switch, ///< by `variable`: cases; `label` where none fits
-  On,     ///< `term` chooses among the labels in its parts
+  Switch, ///< by `variable`: cases; `label` if none matches
+  On,     ///< `term` selects one of the labels in its parts
   Print,  ///< parts
   Do,     ///< `robot` with its parts
   Choice, ///< `condition`, then line `term`, else line `end` (or none) of `branches`
@@ -89,8 +89,8 @@ enum class PartKind : std::uint8_t {
   Text,      ///< `text`, without quotes
   Blank,     ///< `,` of a print
   Open,      ///< `;` at the end of a print
-  Variable,  ///< is set: `value`
-  Element,   ///< is set
+  Variable,  ///< to assign: `value`
+  Element,   ///< to assign
   Label,     ///< `value`
   Restart,   ///< the number of the first line
 };
@@ -99,7 +99,7 @@ struct Part {
   PartKind kind = PartKind::Term;
   std::uint32_t value = none;
   Span text;
-  compiler::Range range; ///< Term: what is known of the value
+  compiler::Range range; ///< Term: the range of the value
 };
 
 struct Case {
@@ -111,11 +111,11 @@ struct Case {
 struct CodeLine {
   LineKind kind = LineKind::Nothing;
   spec::Statement robot = spec::Statement::End;
-  bool guard = false;  ///< of the test of an index: may only be removed where the index is proven
-  bool proven = false; ///< SetElement: the index is certainly one of the robot's
+  bool guard = false;  ///< an index check; may be removed only if the index is proven
+  bool proven = false; ///< SetElement: the index is certainly valid on the robot
   std::uint16_t routine = 0;
-  std::uint32_t expansion = 0; ///< of a sub that is written into its caller; 0: none
-  std::uint32_t origin = 0;    ///< the statement that it is for
+  std::uint32_t expansion = 0; ///< for an inlined sub; 0: none
+  std::uint32_t origin = 0;    ///< its source statement
   std::uint32_t variable = none;
   std::uint32_t label = none;
   std::uint32_t term = none;
@@ -128,20 +128,20 @@ struct CodeLine {
 
 struct CodeVariable {
   std::uint32_t symbol = none; ///< none: a temporary
-  bool kept = false;           ///< somebody may look at it at any time
+  bool kept = false;           ///< may be inspected at any time
 };
 
-/// A statement whose index is outside of its array wherever it runs.
+/// A statement with an index that is out of bounds wherever it runs.
 struct WrongIndex {
   std::uint32_t statement = none;
-  compiler::Range index; ///< among the elements of all arrays
+  compiler::Range index; ///< into the elements of all arrays
 };
 
-/// A call in whose place the sub itself is written.
+/// An inlined call.
 struct Expansion {
-  std::uint32_t within = 0;  ///< the expansion that the call stands in; 0: none
-  std::uint32_t call = none; ///< the statement that calls
-  std::uint32_t routine = 0; ///< what it calls
+  std::uint32_t within = 0;  ///< the enclosing expansion; 0: none
+  std::uint32_t call = none; ///< the calling statement
+  std::uint32_t routine = 0; ///< the inlined routine
 };
 
 struct Code {
@@ -155,8 +155,8 @@ struct Code {
   std::vector<Expansion> expansions{Expansion{}};      ///< the first is none
   std::vector<std::uint32_t> routines;                 ///< of each routine its entry label, or none
   std::vector<WrongIndex> wrong_indices;               ///< found by use_values()
-  std::uint32_t labels = 0;                            ///< how many there are
-  bool too_large = false; ///< lowering gave up: no robot holds such a program
+  std::uint32_t labels = 0;                            ///< their number
+  bool too_large = false; ///< lowering gave up: no robot has room for it
 
   std::uint32_t add(Term term) {
     terms.push_back(term);
@@ -166,7 +166,8 @@ struct Code {
   std::uint32_t read(std::uint32_t variable);
   std::uint32_t system(spec::Variable variable);
   std::uint32_t element();
-  /// With constants folded, and written as the robot can: no negative numbers after operators.
+  /// Makes a binary term: folds constants and avoids negative numbers after operators, which the
+  /// robot cannot read.
   std::uint32_t binary(spec::Operator op, std::uint32_t left, std::uint32_t right);
   std::uint32_t call(spec::Function function, std::uint32_t operand);
   std::uint32_t copy(std::uint32_t term);
@@ -180,60 +181,60 @@ struct Code {
   }
 };
 
-/// Whether two terms, one computed before the other, must keep that order.
+/// True if two terms must be computed in this order.
 constexpr bool ordered(std::uint8_t first, std::uint8_t second) {
   return (first & second & (effect::faults | effect::clears)) != 0;
 }
 
-/// Whether a term stops the program for some values of a variable that it reads, whatever is known
-/// of it.
+/// True if a term stops the program for some value of a variable that it reads, regardless of known
+/// ranges.
 bool can_fault(const Code& code, std::uint32_t term, std::uint32_t variable);
 
-/// What two variables are compared by: themselves, or the letters that hold them.
+/// How variables are compared: as themselves, or by the letters that hold them.
 using Identity = std::function<std::uint32_t(std::uint32_t variable)>;
 
-/// Whether two terms compute the same from the same variables, if nothing happens in between.
+/// True if two terms compute the same value, provided that nothing happens in between.
 bool same(const Code& code, std::uint32_t a, std::uint32_t b);
 
-/// A value as a sum: a term, or none, and a number.
+/// A value as a sum of a term, or none, and a number.
 struct Sum {
   std::uint32_t base = none;
   std::int64_t number = 0;
 };
 Sum sum_of(const Code& code, std::uint32_t term);
 
-/// Whether a line may stop the program; jumps and calls themselves do not, nor does what they lead
-/// to count.
+/// True if the line itself may stop the program; jumps and calls do not, and their targets do not
+/// count.
 bool may_fault(const Code& code, const CodeLine& line);
 
-/// The levels of a binary term over these operands.
+/// The nesting level of a binary term over these operands.
 std::uint8_t levels_of(const Code& code, spec::Operator op, std::uint32_t left,
                        std::uint32_t right);
 
-/// Whether an operand of `op` is printed in parentheses. A function takes all that follows,
-/// so it is always in parentheses on the left.
+/// Decides if an operand of `op` is printed in parentheses. A function takes everything that
+/// follows, so on the left it always is.
 enum class Side : std::uint8_t { Left, Right };
 bool needs_parentheses(const Term& operand, spec::Operator op, Side side);
 
-/// Whether a function stands at the right end: what follows would become part of its operand.
+/// True if a function is at the right end: text after it would become part of its operand.
 bool ends_in_function(const Code& code, std::uint32_t term);
 
-/// Whether the operand of a function is printed in parentheses.
+/// True if the operand of a function is printed in parentheses.
 bool function_needs_parentheses(const Code& code, std::uint32_t operand);
 
-/// The comparison that holds where `comparison` does not, and the one with its sides swapped.
+/// The negation of a comparison, and the comparison with swapped sides.
 Comparison opposite(Comparison comparison);
 Comparison mirrored(Comparison comparison);
 
-/// The orders of two values in which a comparison holds, as bits: less, equal, greater.
+/// The orders of two values for which a comparison holds, as bits: less, equal, greater.
 unsigned orders_of(Comparison comparison);
 
-/// The robot has no `<=` and `>=`: which side of such a comparison gets a 1 added or taken away, so
-/// that `<` or `>` says the same. Neither where both could wrap.
+/// The robot has no `<=` and `>=`. Gives the side to adjust by one so that `<` or `>` is
+/// equivalent; Neither if both could wrap.
 enum class Moved : std::uint8_t { Neither, Left, Right };
 Moved moved_side(const Code& code, const Relation& relation);
 
-/// Calls `visit` with a reference to each root term of a line, in the order of their evaluation.
+/// Calls `visit` with a reference to each root term of a line, in evaluation order.
 template <typename C, typename L, typename Visit>
 void each_root(C& code, L& line, Visit visit) {
   switch (line.kind) {
@@ -272,14 +273,14 @@ void each_root(C& code, L& line, Visit visit) {
   }
 }
 
-/// What computing the terms of a line does.
+/// The side effects of computing the terms of a line.
 inline std::uint8_t effects_of(const Code& code, const CodeLine& line) {
   std::uint8_t effects = 0;
   each_root(code, line, [&](std::uint32_t root) { effects |= code.terms[root].effects; });
   return effects;
 }
 
-/// Whether computing something neither stops the program nor changes what is read.
+/// True if computing the value neither stops the program nor changes anything.
 constexpr bool is_pure(std::uint8_t effects) {
   return (effects & (effect::faults | effect::clears)) == 0;
 }
@@ -301,7 +302,8 @@ void each_read(const Code& code, std::uint32_t term, Visit visit) {
   }
 }
 
-/// A term with `put(v)` in place of each term `v` that reads a variable; itself where all stay.
+/// Replaces each term `v` that reads a variable by `put(v)`; returns the same term if nothing
+/// changes.
 template <typename Put>
 std::uint32_t with_variables(Code& code, std::uint32_t root, Put put) {
   auto node = code.terms[root];
@@ -344,7 +346,7 @@ void each_line_read(const Code& code, const CodeLine& line, Visit visit) {
         visit(index_variable);
 }
 
-/// Of each variable: how often it is read.
+/// The number of reads of each variable.
 std::vector<std::uint32_t> reads_of(const Code& code);
 
 } // namespace orb::structured

@@ -8,11 +8,11 @@
 namespace orb::structured {
 namespace lowering {
 Code Lowering::run() {
-  frames_.emplace_back();
+  contexts_.emplace_back();
   const auto& main = program_.files.front();
   block(main.statements_begin, main.statements_end);
   emit(LineKind::Do).robot = spec::Statement::End;
-  // Routines that are called are written after the main program; they may call others.
+  // Called routines follow the main program; they may call others.
   for (std::size_t n = 0; n < called_.size() && !full(); ++n)
     routine(called_[n]);
   code_.too_large = full();
@@ -102,15 +102,15 @@ void Lowering::call_routine(std::uint32_t routine, std::size_t count) {
   for (std::size_t n = 0; n < count; ++n)
     let(variable_of(callee.first_parameter + static_cast<std::uint32_t>(n)), pending_[below + n]);
   pending_.resize(below);
-  if (plan_.inlined[routine] && frames_.size() <= deepest_inline && !full()) {
+  if (plan_.inlined[routine] && contexts_.size() <= deepest_inline && !full()) {
     const auto end = new_label();
-    frames_.push_back({routine, end, {}, loops_.size()});
+    contexts_.push_back({routine, end, {}, loops_.size()});
     const auto around = expansion_;
     expansion_ = static_cast<std::uint32_t>(code_.expansions.size());
     code_.expansions.push_back({around, origin_, routine});
     body(routine);
     expansion_ = around;
-    frames_.pop_back();
+    contexts_.pop_back();
     label(end);
     return;
   }
@@ -127,7 +127,7 @@ void Lowering::routine(std::uint32_t routine) {
   written_ = routine;
   origin_ = names_.routines[routine].statement;
   label(code_.routines[routine]);
-  frames_.assign(1, {routine, none, {}, 0});
+  contexts_.assign(1, {routine, none, {}, 0});
   body(routine);
   emit(LineKind::Return);
 }

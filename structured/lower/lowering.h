@@ -1,9 +1,9 @@
 #pragma once
 
-// How a program becomes lines of the robot: one pass over its statements, in lower_*.cpp.
+// Lowers a program to lines of the robot in one pass over its statements, in lower_*.cpp.
 
 #include "structured/lower/code.h"
-#include "structured/lower/plan.h"
+#include "structured/lower/lowering_plan.h"
 #include "structured/meaning/symbols.h"
 #include "structured/text/program.h"
 
@@ -16,13 +16,15 @@
 
 namespace orb::structured::lowering {
 
-/// Where a jump is taken: where the condition holds, or where it does not.
+/// The outcome of the condition for which a jump is taken.
 enum class When : std::uint8_t { Holds, Fails };
 
-/// Whether `sleep` is being read, whose durations are in seconds.
+/// Seconds while the values of `sleep` are read.
 enum class Unit : std::uint8_t { Milliseconds, Seconds };
 
-/// Writes a program as lines of the robot: see lower.h.
+/// Lowers a program to lines of the robot: see lower.h. Large because each kind of statement and
+/// expression has its own member, and all of them write to one list of lines and share one stack of
+/// values.
 class Lowering {
 public:
   Lowering(const Program& program, const Names& names, const Plan& plan)
@@ -35,19 +37,19 @@ public:
   Code run();
 
 private:
-  /// A routine that is being written: in a place of its own, or into its caller.
-  struct Frame {
+  /// A routine being lowered: on its own, or inlined into its caller.
+  struct RoutineContext {
     std::uint32_t routine = 0;
     std::uint32_t return_label = none;                           ///< none: a `return` of the robot
-    std::vector<std::pair<std::uint32_t, std::uint32_t>> labels; ///< names and their labels
-    std::size_t loops = 0; ///< how many were open when it began
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> labels; ///< source names and their labels
+    std::size_t loops = 0;                                       ///< loops open at its start
   };
   struct Loop {
     std::uint32_t exit;
     std::uint32_t again;
   };
 
-  /// Whether there are far more lines than any area holds.
+  /// True if there are far more lines than fit into any area.
   bool full() const {
     constexpr std::size_t most_lines = 60000;
     return code_.lines.size() > most_lines;
@@ -68,37 +70,37 @@ private:
   void go(std::uint32_t label) { emit(LineKind::Goto).label = label; }
   void let(std::uint32_t variable, std::uint32_t term);
   std::uint32_t into_temporary(std::uint32_t term);
-  /// Puts a term into a temporary and reads that, which stands where the term was written.
+  /// Stores a term in a temporary and returns a read of it, with the term's source span.
   std::uint32_t read_temporary(std::uint32_t term);
   std::uint32_t written_as(Span source, std::uint32_t term);
-  /// A term that stays what it is now.
+  /// A term that keeps its current value.
   std::uint32_t kept(std::uint32_t term);
   void go_if(Comparison comparison, std::uint32_t left, std::uint32_t right, std::uint32_t label);
   std::uint32_t variable_of(std::uint32_t symbol);
 
-  // ---- values: a stack of terms that are read but not computed yet
+  // ---- values: a stack of terms not computed yet
 
   void push(std::uint32_t term) { pending_.push_back(term); }
   std::uint32_t pop();
 
-  /// Computes what lies on the stack and must happen before something with these effects, and what
-  /// must happen before that.
+  /// Computes the terms on the stack that must come before something with these effects, and the
+  /// terms that must come before those.
   void settle(std::uint8_t effects);
 
-  /// Computes all that a call could change, up to `end`.
+  /// Computes every term that a call could change, up to `end`.
   void settle_calls(std::size_t end);
   bool is_result(std::uint32_t variable) const;
   std::uint32_t spill(std::uint32_t term);
   std::uint32_t binary(spec::Operator op, std::uint32_t left, std::uint32_t right);
   std::uint32_t call(spec::Function function, std::uint32_t operand);
 
-  /// Reads an expression; its value lies on the stack afterwards.
+  /// Pushes the value of an expression.
   void push_value(std::uint32_t root, Unit unit = Unit::Milliseconds);
   std::uint32_t value(std::uint32_t root, Unit unit = Unit::Milliseconds);
   void push_node(std::uint32_t n, Unit unit);
   std::uint32_t name(std::uint32_t symbol);
 
-  /// min and max: the first operand stays where `keeps` holds between it and the second.
+  /// min and max: keeps the first operand if `keeps` holds between it and the second.
   void push_choice(Comparison keeps);
   struct Choice {
     Comparison keeps = Comparison::Equal;
@@ -108,8 +110,8 @@ private:
     std::size_t end = 0;         ///< of the lines that compute it
   };
 
-  /// Sets the index to an element of an array and makes sure that it is one of it: a wrong index
-  /// becomes 0, at which the robot stops.
+  /// Sets the index to an element of an array and checks its bounds: an index out of bounds becomes
+  /// 0, at which the robot stops.
   void point_at(std::uint32_t array, std::uint32_t index);
 
   // ---- calls
@@ -126,7 +128,7 @@ private:
 
   void block(std::uint32_t from, std::uint32_t to);
 
-  /// Writes a statement, a block with all that is in it; returns the next one.
+  /// Lowers a statement, or a block with its contents; returns the next statement.
   std::uint32_t statement(std::uint32_t i);
   std::uint32_t user_label(std::uint32_t name);
   void call_statement(std::uint32_t i, const Statement& node);
@@ -148,16 +150,16 @@ private:
 
   // ---- conditions
 
-  /// Jumps to `label` where the condition holds, or where it fails; goes on below otherwise.
+  /// Jumps to `label` if the condition holds, or if it fails; otherwise falls through.
   void branch(std::uint32_t root, When when, std::uint32_t label);
   void compare(Comparison comparison, std::uint32_t left, std::uint32_t right, When when,
                std::uint32_t label);
 
-  /// A relation with `min` or `max` on one side: `max(a, b) > c` is `a > c or b > c`. False where
-  /// it has none.
+  /// Lowers a relation with `min` or `max` on one side: `max(a, b) > c` is `a > c or b > c`.
+  /// Returns false if it has neither.
   bool branch_choice(std::uint32_t root, When when, std::uint32_t label);
 
-  /// Operands joined by the same word, from left to right and no further than needed.
+  /// Lowers operands joined by the same word from left to right, with short circuit.
   void branch_chain(std::uint32_t root, When when, std::uint32_t label);
 
   // ---- blocks
@@ -177,7 +179,7 @@ private:
   std::uint32_t repeat_times(std::uint32_t i);
   std::uint32_t counting(std::uint32_t i);
 
-  /// The robot's own loop, whose body runs once before its end is looked at.
+  /// Emits the robot's own loop, which runs its body once before it tests the end.
   void native(std::uint32_t i, std::uint32_t end, std::uint32_t counter, std::uint32_t first,
               std::uint32_t last, std::int32_t step, std::uint32_t exit, std::uint32_t again);
   std::uint32_t selection(std::uint32_t i);
@@ -189,15 +191,15 @@ private:
   Code code_;
   std::vector<std::uint32_t> variable_of_;           ///< of each symbol
   std::vector<std::uint32_t> result_of_;             ///< of each routine
-  std::vector<std::uint32_t> called_;                ///< routines that get a place of their own
-  std::unordered_map<std::string_view, Span> texts_; ///< equal texts are one
+  std::vector<std::uint32_t> called_;                ///< routines to lower separately
+  std::unordered_map<std::string_view, Span> texts_; ///< equal texts are stored once
   std::vector<std::uint32_t> pending_;
   Choice last_choice_;
-  std::vector<Frame> frames_;
+  std::vector<RoutineContext> contexts_;
   std::vector<Loop> loops_;
   std::uint32_t origin_ = 0;
-  std::uint32_t expansion_ = 0; ///< that is being written
-  std::uint32_t written_ = 0;   ///< the routine whose place is being filled
+  std::uint32_t expansion_ = 0; ///< the current expansion
+  std::uint32_t written_ = 0;   ///< the routine being written
 };
 
 } // namespace orb::structured::lowering

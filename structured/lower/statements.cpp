@@ -1,6 +1,6 @@
 #include "structured/lower/lowering.h"
 
-#include "structured/text/words.h"
+#include "structured/text/structured_words.h"
 
 #include <utility>
 
@@ -64,11 +64,11 @@ std::uint32_t Lowering::statement(std::uint32_t i) {
 }
 
 std::uint32_t Lowering::user_label(std::uint32_t name) {
-  for (const auto& [other, label] : frames_.back().labels)
+  for (const auto& [other, label] : contexts_.back().labels)
     if (other == name)
       return label;
-  frames_.back().labels.push_back({name, new_label()});
-  return frames_.back().labels.back().second;
+  contexts_.back().labels.push_back({name, new_label()});
+  return contexts_.back().labels.back().second;
 }
 
 void Lowering::call_statement(std::uint32_t i, const Statement& node) {
@@ -80,13 +80,13 @@ void Lowering::call_statement(std::uint32_t i, const Statement& node) {
 }
 
 void Lowering::leave(const Statement& node) {
-  const auto frame = frames_.back();
+  const auto context = contexts_.back();
   if (size(node) > 0)
-    let(result(frame.routine), value(item(node, 0).value));
-  if (frame.return_label == none)
+    let(result(context.routine), value(item(node, 0).value));
+  if (context.return_label == none)
     emit(LineKind::Return);
   else
-    go(frame.return_label);
+    go(context.return_label);
 }
 
 void Lowering::assign(const Statement& node) {

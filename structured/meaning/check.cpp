@@ -19,7 +19,7 @@ void Checker::run() {
   if (std::none_of(found.begin(), found.end(), [](const Diagnostic& one) {
         return one.rule == &rules::UnclosedBlock || one.rule == &rules::BlockEnd;
       }))
-    check_recursion(); // a sub without its end holds the calls below it
+    check_recursion(); // a sub without its end contains the calls below it
   check_unused();
   check_values();
   if (!any_error(program_.diagnostics)) {
@@ -50,7 +50,7 @@ void Checker::follow(std::uint32_t i, const Statement& statement) {
   if (opens_block(statement.role()))
     open_.push_back(i);
   else if (closes_block(statement.role()) && statement.opener != none)
-    while (!open_.empty() && open_.back() >= statement.opener) // those without an end too
+    while (!open_.empty() && open_.back() >= statement.opener) // including unclosed ones
       open_.pop_back();
 }
 
@@ -108,7 +108,7 @@ void Checker::check_statement(const Statement& statement) {
 
 namespace {
 
-/// `onCollision`, `on_shake`: what other languages call by themselves.
+/// True for names such as `onCollision` and `on_shake`: event handlers in other languages.
 bool is_called_by_events(std::string_view name) {
   constexpr std::string_view on = "on";
   return name.size() > on.size() && equal_words(name.substr(0, on.size()), on) &&
@@ -119,7 +119,7 @@ bool is_called_by_events(std::string_view name) {
 
 void Checker::check_unused() {
   if (any_error(program_.diagnostics))
-    return; // what reads it may be what is wrong
+    return; // its reader may be the mistake
   const bool runs = main_file_runs();
   for (const auto& symbol : names_.symbols) {
     if (symbol.read)
@@ -132,11 +132,12 @@ void Checker::check_unused() {
       report_unused(symbol, texts::NeverRead);
     else if (symbol.kind == SymbolKind::Constant && runs && in_main_file(symbol.span))
       report_unused(symbol,
-                    texts::NeverUsed); // those of an included file are for all that include it
+                    texts::NeverUsed); // unused names in an included file may serve other files
   }
 }
 
-/// Subs that nobody calls may be for later, but not those that are to be called by themselves.
+/// Uncalled subs may be for later use, except event handlers of other languages, which nothing will
+/// call.
 void Checker::check_uncalled(const Symbol& symbol) {
   const auto name = program_.text_of(symbol.span);
   if (symbol.used || !main_file_runs() || !in_main_file(symbol.span) || !is_called_by_events(name))
@@ -154,7 +155,7 @@ void Checker::report_unused(const Symbol& symbol, const Row<Hole::Code>& unused)
   for (const auto& other : names_.symbols)
     if (other.kind == SymbolKind::Variable && other.read && other.name != symbol.name)
       others.push_back(program_.name(other.name));
-  constexpr std::size_t clear = 3; // a letter more or less makes another name of a short one
+  constexpr std::size_t clear = 3; // letters; shorter names that differ by one are distinct names
   const auto meant = symbol.kind == SymbolKind::Variable && name.size() >= clear
                          ? closest(name, others)
                          : std::nullopt;

@@ -6,11 +6,11 @@
 
 namespace orb::structured {
 
-/// Reports what is wrong with statements whose names are known: where they stand, how many values
-/// they take, which of them must be constant, what the target does not have.
+/// Checks statements whose names are resolved: their place, the number of their values, required
+/// constants, and features that the target lacks.
 void check(Program& program, const Names& names, const compiler::Target& target);
 
-/// Calls `visit(routine, span)` with each call of a statement, in the order of the text.
+/// Calls `visit(routine, span)` with each call of a statement, in text order.
 template <typename Visit>
 void each_call(const Program& program, const Names& names, std::uint32_t statement, Visit visit) {
   const auto say = [&](std::uint32_t symbol, Span span) {

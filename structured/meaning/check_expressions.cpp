@@ -1,8 +1,8 @@
 #include "structured/meaning/checker.h"
 
 #include "base/duration.h"
-#include "structured/text/foreign.h"
-#include "structured/text/words.h"
+#include "structured/text/foreign_words.h"
+#include "structured/text/structured_words.h"
 
 #include <algorithm>
 
@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::string_view blanks = " \t";
 
-/// The parenthesis before a part of a text or behind it, over blanks; npos where there is none.
+/// The parenthesis before or after a part of a text, past whitespace; npos if there is none.
 std::size_t opening(std::string_view text, Span part) {
   const auto at = text.substr(0, part.begin).find_last_not_of(blanks);
   return at != std::string_view::npos && text[at] == '(' ? at : std::string_view::npos;
@@ -21,7 +21,8 @@ std::size_t closing(std::string_view text, Span part) {
   return at != std::string_view::npos && text[at] == ')' ? at : std::string_view::npos;
 }
 
-/// An expression with the parentheses of its first and last operands, which its span leaves out.
+/// Extends an expression by the parentheses of its first and last operands, which its span leaves
+/// out.
 std::optional<Span> balanced(std::string_view text, Span part) {
   for (;;) {
     int open = 0;
@@ -39,7 +40,7 @@ std::optional<Span> balanced(std::string_view text, Span part) {
   }
 }
 
-/// An expression with the parentheses around it, but for those of a call.
+/// Extends an expression by the parentheses around it, except those of a call.
 Span in_parentheses(std::string_view text, Span part) {
   for (;;) {
     const auto begin = opening(text, part);
@@ -73,7 +74,7 @@ void Checker::check_expressions(const Statement& statement) {
       check_node(statement, n, n == root);
     const bool condition_fits = statement.kind == Kind::If || statement.kind == Kind::ElseIf ||
                                 statement.kind == Kind::While || statement.kind == Kind::Until ||
-                                statement.kind == Kind::Broken; // of a block that is not there
+                                statement.kind == Kind::Broken; // a block of another language
     if (!program_.nodes[root].is_condition())
       continue;
     if (!condition_fits)
@@ -105,7 +106,7 @@ std::optional<Span> Checker::word_between_numbers(std::uint32_t node) const {
   const auto& left = nodes[program_.before(node - 1)];
   if (left.is_condition() || right.is_condition())
     return std::nullopt;
-  // Parentheses of the operands lie between them, too, and the word is all else there may be.
+  // The text between also contains parentheses of the operands, and otherwise only the word.
   const Span between{left.span.end, right.span.begin};
   const auto text = program_.text_of(between);
   const auto begin = text.find_first_not_of(") \t");
@@ -222,7 +223,7 @@ void Checker::check_sensor(std::uint32_t n) {
   if (!question)
     return;
   if (number->duration)
-    question->written = 0; // it says its unit
+    question->written = 0; // it has an explicit unit
   const auto answer = compiler::judge(*question, program_.text_of(nodes[n].span), timers_);
   if (answer)
     report(*answer->rule, nodes[n].span, answer->message, answer->help);
@@ -372,7 +373,7 @@ Diagnostic* Checker::check_range(const Item& part, std::string_view word,
              compiler::texts::FoundValue(compiler::allowed_values(word, parameter),
                                          compiler::shown(compiler::Range::only(value->value))));
   const auto text = program_.text_of(part.span);
-  const bool negative = // a number, no sum
+  const bool negative = // a number, not a sum
       text.starts_with('-') && text.find_first_of(" \t+-*/%(", 1) == std::string_view::npos;
   std::string meant;
   if (const auto nearest = compiler::nearest_allowed(parameter, value->value);
@@ -381,7 +382,8 @@ Diagnostic* Checker::check_range(const Item& part, std::string_view word,
   else if (negative && parameter.name != "speed" &&
            -std::int64_t{value->value} <= parameter.greatest)
     meant = text.substr(1);
-  // A little more than fits waits several times; so many seconds are milliseconds.
+  // A value slightly above the limit becomes several waits; one large enough for milliseconds
+  // already has them.
   constexpr std::int32_t second = 1000;
   constexpr std::int64_t most_lines = 3;
   const auto kind = program_.nodes[part.value].kind;
@@ -408,7 +410,7 @@ bool Checker::require_constant(const Item& part) {
   if (value_of(part))
     return true;
   if (program_.nodes[part.value].is_condition() || names_unknown(part.value))
-    return false; // said already
+    return false; // already reported
   report(rules::NotConstant, part.span, texts::NotConstant(), texts::UseLiterals());
   return false;
 }

@@ -31,7 +31,7 @@ void Checker::check_jumps() {
     check_label(label);
 }
 
-/// `sonst:` and `forever:` are labels, but nobody meant one.
+/// `sonst:` and `forever:` parse as labels but are foreign keywords.
 void Checker::check_label(std::uint32_t label) {
   const auto word = program_.text_of(at(label).name_span);
   const auto meant = repair::word_at(repair::tokens_of(word, repair::Language::Structured), 0);
@@ -107,7 +107,7 @@ bool Checker::encloses(std::uint32_t label, std::uint32_t other) const {
 
 void Checker::check_recursion() {
   const auto calls = calls_of(program_, names_);
-  std::vector<std::uint8_t> state(calls.size(), 0); // 1 open, 2 done
+  std::vector<std::uint8_t> state(calls.size(), 0); // 1: open, 2: done
   for (std::uint32_t root = 1; root < calls.size(); ++root) {
     std::vector<std::pair<std::uint32_t, std::size_t>> path;
     if (state[root] == 0) {
@@ -164,7 +164,7 @@ void Checker::check_loops() {
 
 void Checker::check_called_loops() {
   const auto calls = calls_of(program_, names_);
-  // The loop of each routine, or of what it calls, by the variable that it counts with.
+  // The loop of each routine, or of its callees, by counter variable.
   std::vector<std::map<std::uint32_t, std::uint32_t>> loops(calls.size());
   for (const auto i : program_.order)
     if (at(i).kind == Kind::For)
@@ -262,7 +262,7 @@ void Checker::check_left(std::uint32_t i) {
   const auto word = program_.text_of(statement.word);
   const bool sleeps = ends && statement.robot == spec::Statement::Sleep;
   const auto seconds = sleeps && size(statement) == 1 ? value_of(item(statement, 0)) : std::nullopt;
-  constexpr std::int32_t second = 1000; // ms; more than a `delay` takes were meant as ms already
+  constexpr std::int32_t second = 1000; // ms; larger values were already meant as ms
   const auto longest = spec::info(spec::Statement::Delay).parameters()[0].greatest / second;
   auto& d = report(
       compiler::rules::UnreachableLine, after->span, texts::UnreachableAfter(word),
@@ -324,7 +324,7 @@ void Checker::check_counter(std::uint32_t i) {
   }
 }
 
-/// The number of its line in its file.
+/// The line number within its file.
 std::ptrdiff_t Checker::line_of(Span span) const {
   const auto begin = program_.file_at(span.begin).begin;
   const auto above = std::string_view(program_.text).substr(begin, span.begin - begin);

@@ -2,7 +2,7 @@
 
 #include "base/text/text.h"
 
-// What is valid, and does not what its author sees in it.
+// Checks valid code that does not do what it appears to.
 
 namespace orb::structured {
 
@@ -21,7 +21,7 @@ void Checker::check_parameters() {
     const bool function =
         names_.symbols[names_.routines[routine].symbol].kind == SymbolKind::Function;
     if (function && !gives_value(program_, names_, routine))
-      continue; // it lacks its `return`, as is said elsewhere
+      continue; // the missing `return` is reported elsewhere
     const auto name = program_.name(names_.symbols[symbol].name);
     report(rules::UnusedName, item(at(i), 0).span, texts::CallerNeverSees(name),
            function ? texts::ReturnIt(fmt::format("return {}", name))
@@ -29,8 +29,8 @@ void Checker::check_parameters() {
   }
 }
 
-/// Whether a value that a statement gives to a parameter may be read. The ways are not looked at:
-/// what stands below counts, and in a loop, or where there are labels, everything.
+/// True if the value that a statement assigns to a parameter may be read. Ignores control flow:
+/// every read below counts, and in a loop, or if there are labels, every read.
 bool Checker::is_read_after(std::uint32_t statement, std::uint32_t symbol) const {
   const auto begin = names_.routines[names_.routine_of[statement]].statement;
   auto first = statement + 1;
@@ -59,7 +59,7 @@ bool Checker::is_read_after(std::uint32_t statement, std::uint32_t symbol) const
 
 namespace {
 
-/// The blanks at the beginning of the line of an offset.
+/// The indentation of the line at an offset.
 std::string_view indent_at(std::string_view text, std::uint32_t offset) {
   const auto before = text.find_last_of("\r\n", offset);
   const auto begin = before == std::string_view::npos ? 0 : before + 1;
@@ -90,13 +90,13 @@ void Checker::check_indented() {
       if (below >= file.statements_end || at(below).depth != at(i).depth || !starts_line(below) ||
           !is_deeper(indent(below), indent(i)) || never_reached(i, below) == nullptr)
         continue;
-      auto above = i; // the statement before it in its block
+      auto above = i; // the previous statement in its block
       while (above-- > file.statements_begin && at(above).depth >= at(i).depth)
         if (at(above).depth == at(i).depth && starts_line(above))
           break;
       if (above < i && above >= file.statements_begin && at(above).depth == at(i).depth &&
           is_deeper(indent(above), indent(i)))
-        continue; // it is the `if` that stands too far left
+        continue; // the `if` itself is indented too little
       const Span head{at(i).span.begin, item(at(i), 0).span.end};
       auto& d = report(rules::MisleadingIndent, at(below).span, texts::RunsAnyway(),
                        texts::MakeABlock(fmt::format("{} then", program_.text_of(head)), "end if"));

@@ -55,7 +55,8 @@ void Checker::check_assign(const Statement& statement) {
 
 void Checker::check_robot(const Statement& statement) {
   const auto& row = spec::info(statement.robot);
-  // With two values `goroll` is older: the robot's lines are checked for its go value.
+  // With two values `goroll` has its older form; the check of the robot's lines covers its go
+  // value.
   if (statement.robot != spec::Statement::Goroll || size(statement) == row.parameters().size())
     check_version(statement.word, row.word, row.since, false);
   if (statement.robot == spec::Statement::Data) {
@@ -82,7 +83,7 @@ void Checker::check_robot(const Statement& statement) {
     check_swapped(statement);
 }
 
-/// `goroll 100, direction, 1`: names say which value is meant.
+/// `goroll 100, direction, 1`: the names show which value is which.
 void Checker::check_swapped(const Statement& statement) {
   const auto& heading = item(statement, 0);
   const auto& speed = item(statement, 1);
@@ -187,7 +188,7 @@ void Checker::check_for(const Statement& statement) {
 }
 
 void Checker::check_direction(const Statement& statement) {
-  const auto number = [&](std::uint32_t n) { // a name may have another value tomorrow
+  const auto number = [&](std::uint32_t n) { // the value of a name may change
     const auto& part = item(statement, n);
     const auto kind = program_.nodes[part.value].kind;
     return kind == NodeKind::Number || kind == NodeKind::Negate ? value_of(part) : std::nullopt;
@@ -219,7 +220,7 @@ void Checker::check_next(const Statement& statement) {
       (named.kind == NodeKind::Name && counter.value == named.value))
     return;
   if (crossed_ == std::pair{named.value, counter.value})
-    return; // the other `next` of the two said so
+    return; // already reported at the other `next`
   crossed_ = {counter.value, named.value};
   const auto name = std::string(program_.text_of(counter.span));
   report(rules::LoopVariable, item(statement, 0).span, compiler::texts::InnermostLoopVariable(name),
@@ -250,7 +251,7 @@ void Checker::add_case(CaseRange range, Span span) {
       report(rules::CaseValue, span, texts::DuplicateCase(std::max(other.lo, range.lo)));
       return;
     }
-  constexpr std::size_t most = 1024; // no robot holds more; looking for doubles takes pairs
+  constexpr std::size_t most = 1024; // no robot holds more; the search for duplicates is quadratic
   if (cases_.size() < most)
     cases_.push_back(range);
 }

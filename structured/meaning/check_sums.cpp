@@ -4,7 +4,7 @@
 namespace orb::structured {
 
 std::optional<compiler::Bound> Checker::bound_of(std::uint32_t relation) const {
-  if (program_.nodes[relation].kind != NodeKind::Relation) // else there may be nothing before it
+  if (program_.nodes[relation].kind != NodeKind::Relation) // otherwise nothing may precede it
     return std::nullopt;
   const auto number = evaluate(program_, names_, relation - 1);
   if (!number)

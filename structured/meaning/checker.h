@@ -7,10 +7,10 @@
 #include "compiler/text/texts.h"
 #include "spec/limits.h"
 #include "structured/meaning/check.h"
-#include "structured/text/blocks.h"
+#include "structured/text/link_blocks.h"
 #include "structured/text/rules.h"
+#include "structured/text/structured_words.h"
 #include "structured/text/texts.h"
-#include "structured/text/words.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -18,6 +18,8 @@
 
 namespace orb::structured {
 
+/// Checks a program whose names are resolved. Large because each rule has its own member, and all
+/// of them report on the same program and names.
 class Checker {
 public:
   Checker(Program& program, const Names& names, const compiler::Target& target)
@@ -27,7 +29,7 @@ public:
 
 private:
   Diagnostic& report(const Rule& rule, Span span, Message message, Message help = {});
-  Diagnostic& report(const Rule& rule, Span span, compiler::Said said) {
+  Diagnostic& report(const Rule& rule, Span span, compiler::FindingTexts said) {
     return report(rule, span, std::move(said.message), std::move(said.help));
   }
   const Statement& at(std::uint32_t i) const { return program_.statements[i]; }
@@ -43,71 +45,70 @@ private:
 
   void report_condition(const Statement& statement, std::uint32_t node);
 
-  /// The `and` or `or` of two numbers.
+  /// The `and` or `or` between two numbers.
   std::optional<Span> word_between_numbers(std::uint32_t node) const;
 
-  /// The statement as an `if` of one line that puts 1 or 0 where a condition is a number; nothing
-  /// where it shares its line or asks for more.
+  /// Rewrites the statement as a one-line `if` that sets 1 or 0 where a condition is used as a
+  /// number; nothing if it shares its line or needs more.
   std::optional<std::string> with_if(const Statement& statement, std::uint32_t node) const;
 
-  /// Whether a name in an expression is unknown, which has been reported.
+  /// True if a name in an expression is unknown, which is already reported.
   bool names_unknown(std::uint32_t root) const;
 
-  /// A sum or product of constants beyond what a number can be.
+  /// Reports a sum or product of constants that exceeds the number range.
   void check_overflow(std::uint32_t n);
 
-  /// Whether `&` or `|` stands between conditions.
+  /// True if `&` or `|` joins conditions.
   bool joins_conditions(std::uint32_t n) const;
   void report_bitwise(std::uint32_t n);
 
   void check_node(const Statement& statement, std::uint32_t n, bool is_root);
 
-  /// A sensor that is compared with a number, whichever side it stands on.
+  /// Checks a sensor compared with a number, on either side.
   void check_sensor(std::uint32_t n);
 
   static Comparison mirrored(Comparison comparison);
 
-  /// The same question as the robot asks it, which has no `<=` and `>=`.
+  /// The equivalent test for the robot, which has no `<=` and `>=`.
   static std::optional<compiler::SensorQuestion>
   question_of(Comparison comparison, spec::Variable sensor, std::int32_t number);
 
-  /// `1 / 2` is 0.
+  /// Reports `1 / 2`, which is 0.
   void check_quotient(std::uint32_t n);
 
-  /// `x = 1 or 6`: the number was meant to be compared like the one before it.
+  /// Reports `x = 1 or 6`: the second number was meant to be compared, too.
   void check_sides(std::uint32_t root);
 
   void check_side(std::uint32_t side, std::uint32_t other);
 
-  /// 2147483648 can only be written with a minus sign before it.
+  /// Reports 2147483648 without a minus sign before it.
   void check_number(std::uint32_t n, bool is_root);
 
   void check_index(std::uint32_t n);
 
   void check_version(Span span, std::string_view word, spec::BasicVersion since, bool old_name);
 
-  // ---- where statements stand
+  // ---- placement of statements
 
-  /// Keeps the open blocks; the end of a block has its opener's depth.
+  /// Tracks the open blocks; the end of a block has its opener's depth.
   void follow(std::uint32_t i, const Statement& statement);
 
   bool in_loop() const;
 
   bool in_select() const;
 
-  /// Whether the line that begins the sub around a statement does not parse.
+  /// True if the first line of the enclosing sub does not parse.
   bool in_broken_routine() const;
 
   void misplaced(const Statement& statement, Message message, Message help = {});
 
-  /// Of what nothing is around to be left, also where the words are those of another language,
-  /// which is not a second mistake.
+  /// Reports a statement outside the block that it leaves. Foreign words are not reported again.
   void stands_outside(const Statement& statement, const Row<Hole::Code>& outside,
                       Message help = {});
 
   void check_place(std::uint32_t i, const Statement& statement);
 
-  /// The first part of the innermost block where it lies after statement `i`.
+  /// The first part of the innermost block if it comes after statement `i`.
   std::uint32_t none_yet(std::uint32_t i) const;
 
   void check_return(std::uint32_t routine, const Statement& statement);
@@ -118,10 +119,10 @@ private:
 
   void check_assign(const Statement& statement);
 
-  /// Offers the other heading where a speed is below 0, to the finding about that.
+  /// Adds the opposite heading as an offer to the finding about a negative speed.
   void check_swapped(const Statement& statement);
   void help_backwards(const Statement& statement, Diagnostic& d);
-  /// The finding, where there is one; until the next.
+  /// Returns the finding, if any; valid until the next one.
   Diagnostic* check_range(const Item& part, std::string_view word,
                           const spec::Parameter& parameter);
 
@@ -143,7 +144,7 @@ private:
 
   void check_for(const Statement& statement);
 
-  /// A loop of which nothing is ever done: its numbers lie the other way round.
+  /// Reports a loop that never runs because its bounds are reversed.
   void check_direction(const Statement& statement);
   void check_next(const Statement& statement);
 
@@ -168,7 +169,7 @@ private:
 
   void report_unknown_label(std::uint32_t i, const std::vector<std::uint32_t>& labels);
 
-  /// Whether every block around `label` is also around `other`.
+  /// True if every block around `label` is also around `other`.
   bool encloses(std::uint32_t label, std::uint32_t other) const;
 
   void check_recursion();
@@ -180,46 +181,47 @@ private:
 
   void check_loops();
 
-  /// Whether a condition of constants holds.
+  /// True if a condition of constants holds.
   bool always_holds(std::uint32_t condition) const;
 
-  /// A loop that waits while what holds for one reading holds.
+  /// Reports a loop that waits while a momentary condition holds.
   void check_inverted(std::uint32_t i);
 
-  /// What stands after a loop that nothing leaves.
+  /// Reports code after a loop without an exit.
   void check_endless(std::uint32_t i);
 
-  /// What stands after a statement that does not go on: `end`, `sleep`, `goto`, `return`, `exit`.
+  /// Reports code after a statement that does not fall through: `end`, `sleep`, `goto`, `return`,
+  /// `exit`.
   void check_left(std::uint32_t i);
 
-  /// The statement `after`, where nothing leads there because nothing gets past `i`; null where
-  /// something else does, or where it would do nothing.
+  /// The statement `after`, if it is unreachable because control never passes `i`; null if it is
+  /// reachable or has no effect.
   const Statement* never_reached(std::uint32_t i, std::uint32_t after) const;
 
-  /// A loop whose counter is an index in each turn, and not always that of an element.
+  /// Reports a loop whose counter is an index that goes out of bounds.
   void check_counter(std::uint32_t i);
 
-  /// A loop that calls what counts with its variable, too.
+  /// Reports a loop that calls a routine with the same counter.
   void check_called_loops();
 
   // ---- sums
 
-  /// A comparison with a number; nothing of any other node.
+  /// Reads a comparison with a number; nothing for any other node.
   std::optional<compiler::Bound> bound_of(std::uint32_t relation) const;
 
-  /// `x > 9 and x < 1` never holds, `x <> 1 or x <> 2` always.
+  /// Reports `x > 9 and x < 1`, which never holds, and `x <> 1 or x <> 2`, which always holds.
   void check_joint(std::uint32_t n);
 
-  /// A loop that ends with an `exit` that asks nothing.
+  /// Reports a loop that ends with an unconditional `exit`.
   void check_single_round(std::uint32_t i);
 
-  // ---- what is hardly meant
+  // ---- unlikely intent
 
-  /// A change of a parameter, which the caller never sees.
+  /// Reports an assignment to a parameter, which the caller never sees.
   void check_parameters();
   bool is_read_after(std::uint32_t statement, std::uint32_t symbol) const;
 
-  /// Lines that look as if they belonged to the `if` of one line above them.
+  /// Reports lines that are indented as if they belonged to the one-line `if` above.
   void check_indented();
 
   // ---- functions without a value
@@ -238,7 +240,7 @@ private:
 
   bool in_main_file(Span span) const;
 
-  /// Not only declarations, for others to include.
+  /// True if the main file has more than declarations for others to include.
   bool main_file_runs() const;
 
   std::string_view name_of(std::uint32_t routine) const;
@@ -249,7 +251,7 @@ private:
   const compiler::Target& target_;
   std::vector<std::uint32_t> open_;
   std::vector<CaseRange> cases_;
-  std::pair<std::int32_t, std::int32_t> crossed_{-1, -1}; ///< the names of a `for` and its `next`
+  std::pair<std::int32_t, std::int32_t> crossed_{-1, -1}; ///< the names in a crossed pair
 };
 
 } // namespace orb::structured

@@ -10,7 +10,7 @@ namespace {
 bool has_effect(const Node& node) {
   if (node.kind == NodeKind::Builtin)
     return static_cast<spec::Function>(node.what) == spec::Function::Rnd;
-  return node.kind == NodeKind::Call || // a function may do anything
+  return node.kind == NodeKind::Call || // a function may have any effect
          (node.kind == NodeKind::System &&
           spec::variables[node.what].access == spec::Access::ReadClears);
 }

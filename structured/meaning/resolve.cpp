@@ -3,10 +3,10 @@
 #include "compiler/text/texts.h"
 #include "spec/limits.h"
 #include "structured/meaning/unknown_names.h"
-#include "structured/text/blocks.h"
+#include "structured/text/link_blocks.h"
 #include "structured/text/rules.h"
+#include "structured/text/structured_words.h"
 #include "structured/text/texts.h"
-#include "structured/text/words.h"
 
 #include <algorithm>
 #include <array>
@@ -29,6 +29,8 @@ Message kind_of(SymbolKind kind) {
   return {};
 }
 
+/// Finds what each name means. Large because each kind of declaration and each kind of use has its
+/// own rules.
 class Resolver {
 public:
   explicit Resolver(Program& program) : program_(program), unknown_(program, names_) {}
@@ -105,7 +107,7 @@ private:
     d.notes.push_back({first.span, texts::DeclaredHere()});
   }
 
-  /// What statement `i` declares by its name.
+  /// The symbol that statement `i` declares by its name.
   Symbol named(SymbolKind kind, std::uint32_t i) const {
     Symbol symbol;
     symbol.kind = kind;
@@ -166,7 +168,7 @@ private:
 
   void declare_locals(std::uint32_t i, std::uint32_t routine) {
     if (routine == 0)
-      return; // reported where statements in the wrong place are
+      return; // already reported as misplaced
     for (const auto& item : program_.items_of(program_.statements[i])) {
       Symbol local;
       local.kind = SymbolKind::Local;
@@ -199,8 +201,8 @@ private:
     }
   }
 
-  /// The value of an Expression item that must be constant; names below are looked up as far as
-  /// they are known by now.
+  /// The value of an Expression item that must be constant. Names in it are looked up among those
+  /// known so far.
   std::optional<Constant> constant(std::uint32_t item) {
     const auto root = program_.items[item].value;
     for (auto n = program_.nodes[root].first; n <= root; ++n)
@@ -217,7 +219,7 @@ private:
     return value;
   }
 
-  /// What could not be computed, although all of its names are known by now.
+  /// Reports values that could not be computed although all of their names are now known.
   void check_constants() {
     for (const auto item : inconstant_) {
       const auto& part = program_.items[item];
@@ -259,7 +261,7 @@ private:
     scope_.push_back(index);
   }
 
-  /// Scopes are entered twice; what is wrong with a name is said once.
+  /// Scopes are entered twice; report each name once.
   bool scope_reported(std::uint32_t index) {
     if (reported_.size() < names_.symbols.size())
       reported_.resize(names_.symbols.size(), false);
@@ -284,7 +286,7 @@ private:
 
   // ---- variables
 
-  /// Whether a statement sets the Place after its word and does not read it.
+  /// True if the statement assigns the Place after its word without reading it.
   static bool sets(const Statement& statement) {
     return statement.kind == Kind::Assign || statement.kind == Kind::For ||
            statement.kind == Kind::Robot;
@@ -324,7 +326,7 @@ private:
 
   void look_up(std::uint32_t i) {
     const auto& statement = program_.statements[i];
-    // `RGB orange` names a colour where nothing else has that name.
+    // `RGB orange` is a colour unless the program has a name `orange`.
     const bool colour = statement.kind == Kind::Robot && statement.robot == spec::Statement::Rgb &&
                         statement.items_end - statement.items_begin < 3;
     const bool only = statement.items_end - statement.items_begin == 1;
@@ -337,7 +339,7 @@ private:
         if (kind != NodeKind::Name && kind != NodeKind::Element && kind != NodeKind::Call)
           continue;
         if (names_.of_node[n] != none)
-          continue; // of a constant: looked up when it was declared
+          continue; // of a constant: resolved at its declaration
         if (colour && kind == NodeKind::Name && symbol_of(n) == none &&
             find_colour(program_.text_of(program_.nodes[n].span)))
           continue;
@@ -361,7 +363,7 @@ private:
     const auto index = symbol_of(n);
     const bool element = node.kind == NodeKind::Element;
     if (index == none) {
-      if (statement.kind != Kind::Next) // which has the name of its loop or is wrong anyway
+      if (statement.kind != Kind::Next) // its name is that of its loop, or wrong anyway
         unknown_.report(node, element);
       return;
     }
@@ -390,7 +392,7 @@ private:
     } else if (element && (statement.kind == Kind::For)) {
       report(rules::WrongUse, node.span, texts::LoopNoElement());
     }
-    // A loop counts in its variable; of what changes by being read it is the reading that counts.
+    // A loop counts in its variable. For a value that changes when read, reading is the purpose.
     if (statement.kind == Kind::For ||
         (statement.kind == Kind::Assign && has_effects(program_, statement)))
       symbol.read = true;
@@ -417,7 +419,7 @@ private:
       wrong(n, symbol, texts::NoElements());
     else if (node.kind == NodeKind::Call && symbol.kind == SymbolKind::Sub &&
              gives_value(program_, names_, symbol.routine))
-      names_.of_node[n] = none; // the `return` is told to make it a function
+      names_.of_node[n] = none; // the error at the `return` says to make it a function
     else if (node.kind == NodeKind::Call && symbol.kind != SymbolKind::Function)
       wrong(n, symbol,
             symbol.kind == SymbolKind::Sub     ? texts::CallAsStatement()
@@ -437,10 +439,10 @@ private:
     report_wrong(program_.nodes[n], symbol, std::move(why));
   }
 
-  /// Null where nothing is said.
+  /// Returns null if nothing is reported.
   Diagnostic* report_wrong(const Node& node, const Symbol& symbol, Message why) {
     if (std::find(taken_.begin(), taken_.end(), symbol.name) != taken_.end())
-      return nullptr; // of two meanings the other may be meant
+      return nullptr; // with two meanings, the other one may be intended
     auto& d =
         report(rules::WrongUse, node.span,
                texts::WrongKind(program_.name(symbol.name), kind_of(symbol.kind), std::move(why)));
@@ -468,7 +470,7 @@ private:
           program_.text_of({header.name_span.begin, header.span.end}));
   }
 
-  /// A constant that is assigned to was meant as a variable.
+  /// Offers to make a constant a variable, since it is assigned.
   void make_variable(const Symbol& symbol, Diagnostic& d) const {
     const auto& declared = program_.statements[symbol.statement];
     const Span word{declared.span.begin, declared.name_span.begin};
@@ -501,13 +503,13 @@ private:
 
   Program& program_;
   Names names_;
-  std::vector<std::uint32_t> shared_; ///< of each name: the symbol of the whole program, or none
+  std::vector<std::uint32_t> shared_; ///< of each name: the global symbol, or none
   std::vector<std::uint32_t> own_;    ///< of each name: the local or parameter of this routine
   std::vector<std::uint32_t> scope_;  ///< the symbols in `own_`
-  std::vector<std::uint32_t> taken_;  ///< names that have two meanings
+  std::vector<std::uint32_t> taken_;  ///< names with two meanings
   std::vector<bool> reported_;
-  std::vector<std::uint32_t> rank_;       ///< of each statement: its place in the order
-  std::vector<std::uint32_t> inconstant_; ///< items that are not constant so far
+  std::vector<std::uint32_t> rank_;       ///< of each statement: its position in the order
+  std::vector<std::uint32_t> inconstant_; ///< items not constant so far
   UnknownNames unknown_;
 };
 

@@ -1,6 +1,6 @@
 #include "structured/meaning/checker.h"
 
-// Functions that give no value, and subs that do: each was meant as the other.
+// Functions that return no value, and subs that do: each was meant as the other.
 
 namespace orb::structured {
 
@@ -35,12 +35,12 @@ void turn(const Program& program, const Names& names, std::uint32_t routine, Sym
 
 void Checker::check_values() {
   if (any_error(program_.diagnostics))
-    return; // what gives the value may be what is wrong
+    return; // its value may be the mistake
   for (std::uint32_t n = 1; n < names_.routines.size(); ++n) {
     const auto& symbol = names_.symbols[names_.routines[n].symbol];
     if (symbol.kind != SymbolKind::Function || !symbol.used || gives_value(program_, names_, n))
       continue;
-    std::string_view value = "e"; // what it computes last
+    std::string_view value = "e"; // the last value it computes
     const auto& begin = at(names_.routines[n].statement);
     for (auto i = names_.routines[n].statement; i < begin.next && begin.next != none; ++i)
       if (at(i).kind == Kind::Assign)

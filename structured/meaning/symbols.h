@@ -9,7 +9,7 @@
 namespace orb::structured {
 
 enum class SymbolKind : std::uint8_t {
-  Variable, ///< shared by the whole program
+  Variable, ///< global
   Local,
   Parameter,
   Constant, ///< also the macros of `use`
@@ -25,9 +25,9 @@ struct Symbol {
   bool used = false; ///< Sub, Function: called somewhere
   std::uint32_t name = none;
   std::uint32_t statement = none; ///< the declaration, or the first assignment
-  std::uint32_t routine = 0;      ///< Local, Parameter: whose; Sub, Function: the routine itself
+  std::uint32_t routine = 0;      ///< Local, Parameter: its routine; Sub, Function: itself
   std::int32_t value = 0;         ///< Constant: its value; Array: its size
-  std::int32_t base = 0;          ///< Array: the elements before its first
+  std::int32_t base = 0;          ///< Array: the number of elements before its first
   Span span;
 };
 
@@ -35,18 +35,18 @@ struct Symbol {
 struct Routine {
   std::uint32_t symbol = none; ///< none for the main program
   std::uint32_t statement = none;
-  std::uint32_t first_parameter = 0; ///< its parameters are symbols one after the other
+  std::uint32_t first_parameter = 0; ///< its parameters are consecutive symbols
   std::uint32_t parameters = 0;
   std::vector<std::uint32_t> locals; ///< symbols
 };
 
-/// What the names of a program stand for.
+/// The meaning of the names of a program.
 struct Names {
   std::vector<Symbol> symbols;
   std::vector<Routine> routines;           ///< the main program first
   std::vector<std::uint32_t> of_node;      ///< of Name, Element and Call nodes: a symbol or none
-  std::vector<std::uint32_t> of_statement; ///< of calls, labels excepted: a symbol or none
-  std::vector<std::uint32_t> routine_of;   ///< of each statement: the routine it stands in
+  std::vector<std::uint32_t> of_statement; ///< of calls, except labels: a symbol or none
+  std::vector<std::uint32_t> routine_of;   ///< of each statement: the enclosing routine
   std::int32_t elements = 0;               ///< of all arrays together
 };
 
@@ -55,21 +55,22 @@ struct Constant {
   bool duration = false;
 };
 
-/// Finds what each name stands for; reports names that are unknown, taken or used for what they are
-/// not. Constants and array sizes are computed here.
+/// Resolves names; reports names that are unknown, already taken or used wrongly. Computes
+/// constants and array sizes.
 Names resolve(Program& program);
 
-/// The value of an expression of literals and constants, or nothing. A division by zero is nothing.
+/// The value of an expression of literals and constants; nothing if it is not constant or divides
+/// by zero.
 std::optional<Constant> evaluate(const Program& program, const Names& names, std::uint32_t root);
 
-/// Whether a sub or function has a `return` with a value.
+/// True if a sub or function has a `return` with a value.
 bool gives_value(const Program& program, const Names& names, std::uint32_t routine);
 
-/// Offers to make a function of a sub, or the other way round.
+/// Offers to turn a sub into a function, or the reverse.
 void turn(const Program& program, const Names& names, std::uint32_t routine, SymbolKind into,
           Diagnostic& finding);
 
-/// Whether a statement does something besides giving a value, and so must stay.
+/// True if a statement has an effect besides giving a value, and so must stay.
 bool has_effects(const Program& program, const Statement& statement);
 
 } // namespace orb::structured

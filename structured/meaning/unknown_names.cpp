@@ -2,11 +2,11 @@
 
 #include "base/meant.h"
 #include "base/text/suggest.h"
-#include "structured/text/blocks.h"
-#include "structured/text/foreign.h"
+#include "structured/text/foreign_words.h"
+#include "structured/text/link_blocks.h"
 #include "structured/text/rules.h"
+#include "structured/text/structured_words.h"
 #include "structured/text/texts.h"
-#include "structured/text/words.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -16,7 +16,7 @@
 namespace orb::structured {
 namespace {
 
-/// Whether a name may be declared where it could not be read.
+/// True if a name may be declared in a part that could not be read.
 bool is_incomplete(const Program& program) {
   return std::any_of(program.diagnostics.begin(), program.diagnostics.end(),
                      [](const Diagnostic& one) {
@@ -41,12 +41,12 @@ void UnknownNames::report(const Node& node, bool needs_declaration) {
   if (broken_ && !needs_declaration)
     return; // a line that does not parse may assign it
   if (const auto name = static_cast<std::uint32_t>(node.value); !said_.insert(name).second)
-    return; // said where it stands first
+    return; // already reported at its first use
   const Span span{
       node.span.begin,
       node.span.begin +
           static_cast<std::uint32_t>(program_.name(static_cast<std::uint32_t>(node.value)).size())};
-  if (span.size() > 1 && report_foreign(span, Stands::Inside)) // a letter is a name
+  if (span.size() > 1 && report_foreign(span, Stands::Inside)) // a single letter is a name
     return;
   if (const auto text = std::string(program_.text_of(span)); find_colour(text)) {
     add(rules::UnknownName, span, texts::IsAColour(text), texts::OnlyAColour("RGB", "RGB " + text));
@@ -95,7 +95,7 @@ void UnknownNames::suggest(Span span, const std::vector<std::string_view>& candi
                            const Row<Hole::Code>& unknown) {
   if (incomplete_)
     return;
-  constexpr std::size_t most = 64; // a suggestion for each of very many would take too long
+  constexpr std::size_t most = 64; // more suggestions would take too long
   const auto name = std::string(program_.text_of(span));
   auto& d = add(rules::UnknownName, span, unknown(name));
   if (++unknown_ > most)

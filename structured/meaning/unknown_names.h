@@ -4,7 +4,7 @@
 
 #include "base/message.h"
 #include "structured/meaning/symbols.h"
-#include "structured/text/foreign.h"
+#include "structured/text/foreign_words.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -15,32 +15,32 @@
 
 namespace orb::structured {
 
-/// Reports names that stand for nothing, with what may have been meant. What a file that could not
-/// be read may declare is not reported.
+/// Reports undefined names with suggestions. Skips names that a file which could not be read may
+/// declare.
 class UnknownNames {
 public:
-  /// Both outlive it.
+  /// Both must outlive this.
   UnknownNames(Program& program, const Names& names);
 
-  /// A name in an expression, or what is assigned to.
+  /// Reports a name in an expression, or an assigned one.
   void report(const Node& node, bool needs_declaration);
-  /// What stands alone after `RGB`.
+  /// Reports a single word after `RGB`.
   void report_colour(Span span);
-  /// The first word of a statement.
+  /// Reports the first word of a statement.
   void report_word(Span span);
 
 private:
   Diagnostic& add(const Rule& rule, Span span, Message message, Message help = {});
-  /// Says what a word of another language is here; false where it is none.
+  /// Explains a word of another language; returns false if it is not one.
   bool report_foreign(Span span, Stands stands);
   void suggest(Span span, const std::vector<std::string_view>& candidates,
                const Row<Hole::Code>& unknown);
 
   Program& program_;
   const Names& names_;
-  std::set<std::uint32_t> said_; ///< names that have been reported
+  std::set<std::uint32_t> said_; ///< names already reported
   std::size_t unknown_ = 0;
-  bool incomplete_; ///< a file that may declare what is unknown could not be read
+  bool incomplete_; ///< a file that may declare unknown names could not be read
   bool broken_;     ///< a line does not parse
 };
 

@@ -27,7 +27,7 @@ public:
   }
 
 private:
-  /// The term that is `taken` where a relation holds and else `passed`, or none.
+  /// The term that is `taken` if a relation holds and `passed` otherwise; none if there is none.
   std::uint32_t between(const Relation& relation, Sum taken, Sum passed) {
     const auto [lo, hi] = std::pair{relation.left_range.lo, relation.left_range.hi};
     if (std::int64_t{lo} + 1 != hi || !code_.is_number(relation.right) ||
@@ -59,8 +59,8 @@ private:
     return code_.terms[term].levels > spec::value_of(spec::Limit::ExpressionLevels) ? none : term;
   }
 
-  /// Puts one line in place of a test and its arms, if these differ in numbers that follow from the
-  /// value that is tested.
+  /// Replaces a test and its arms by one line if the arms differ only in numbers that can be
+  /// computed from the tested value.
   bool compute(std::uint32_t i, const Arms& arms) {
     const auto& condition = code_.conditions[code_.lines[i].condition];
     auto line = copy_line(code_, code_.lines[arms.passed]);
@@ -85,7 +85,7 @@ private:
         line.parts_end - line.parts_begin != other.parts_end - other.parts_begin)
       return false;
     bool good = true;
-    bool differ = false; // else nothing would be computed from what is tested
+    bool differ = false; // otherwise the test would not matter
     const auto compute_root = [&](std::uint32_t& root, std::uint32_t that) {
       if (!good || same(code_, root, that))
         return;
@@ -105,7 +105,7 @@ private:
              (computed || part.value == there.value);
       part.range = compiler::join(part.range, there.range);
       if (auto value = part.value; good && computed) {
-        compute_root(value, there.value); // which may move the parts
+        compute_root(value, there.value); // this may move the parts
         code_.parts[n].value = value;
       }
     }
@@ -123,7 +123,7 @@ private:
   }
 
   Code& code_;
-  std::vector<std::uint32_t> named_; ///< of each label: how often
+  std::vector<std::uint32_t> named_; ///< of each label: its references
 };
 
 } // namespace

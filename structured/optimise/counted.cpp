@@ -24,14 +24,14 @@ public:
   }
 
 private:
-  /// `L: …; v = v + step; if v <= last then goto L`
-  struct Loop {
+  /// A loop `L: …; v = v + step; if v <= last then goto L`.
+  struct CountedLoop {
     std::uint32_t begin = none; ///< the label
-    std::uint32_t count = none; ///< the line that counts
+    std::uint32_t count = none; ///< the line that increments
     std::uint32_t test = none;
     std::uint32_t variable = none;
     std::uint32_t last = none; ///< a term
-    compiler::Range end;       ///< what is known of what the test compares with
+    compiler::Range end;       ///< the range of the tested bound
     std::int32_t step = 0;
   };
 
@@ -47,12 +47,12 @@ private:
     return false;
   }
 
-  std::optional<Loop> counted_by(std::uint32_t i) {
+  std::optional<CountedLoop> counted_by(std::uint32_t i) {
     const auto& test = code_.lines[i];
     if (test.kind != LineKind::If || test.guard || named_[test.label] != 1 ||
         at_[test.label] >= i || code_.conditions[test.condition].glue != Glue::None)
       return std::nullopt;
-    Loop loop;
+    CountedLoop loop;
     loop.begin = at_[test.label];
     loop.test = i;
     loop.count = i - 1;
@@ -73,8 +73,8 @@ private:
     return code_.terms[term].kind == TermKind::Variable && code_.terms[term].left == variable;
   }
 
-  /// The last value that is counted where a loop goes on while a relation holds, or none.
-  std::uint32_t last_of(Relation relation, Loop& loop) {
+  /// The last counted value of a loop that continues while a relation holds, or none.
+  std::uint32_t last_of(Relation relation, CountedLoop& loop) {
     if (!reads_only(relation.left, loop.variable)) {
       std::swap(relation.left, relation.right);
       std::swap(relation.left_range, relation.right_range);
@@ -100,9 +100,9 @@ private:
     return i < code_.lines.size() && code_.lines[i].kind == kind;
   }
 
-  /// Whether only line `count` sets the variable, and the last value stays what it is. Variables
-  /// that share a letter are one.
-  bool counts_alone(const Loop& loop) {
+  /// True if only line `count` assigns the variable and the bound stays constant. Variables that
+  /// share a letter count as one.
+  bool counts_alone(const CountedLoop& loop) {
     flow_ = read_flow(code_);
     const auto is_set = [&](std::uint32_t variable) {
       bool found = false;
@@ -123,11 +123,11 @@ private:
     return good;
   }
 
-  /// Whether nothing leads into a loop but its begin, and what leads out of it, before its test,
-  /// can end it: it leads where nothing else does, and the variable is not needed there.
-  bool can_be_left(const Loop& loop) {
+  /// True if the loop is entered only at its start, and every earlier exit can close it: the exit's
+  /// target is reached only from there, and the variable is dead there.
+  bool can_be_left(const CountedLoop& loop) {
     const auto& lines = code_.lines;
-    std::vector<std::uint32_t> inside(code_.labels, 0); // how often labels are named there
+    std::vector<std::uint32_t> inside(code_.labels, 0); // references of each label from inside
     bool good = true;
     exits_.clear();
     for (auto i = loop.begin + 1; i < loop.test; ++i) {
@@ -160,8 +160,9 @@ private:
     return good && passes && !code_.variables[loop.variable].kept;
   }
 
-  /// Whether the robot keeps a loop open: a `for` with the same variable would take its place.
-  bool is_kept_open(const Loop& loop) const {
+  /// True if the robot already has a loop open with this variable: a `for` with it would replace
+  /// that loop.
+  bool is_kept_open(const CountedLoop& loop) const {
     const auto counts = [&](const CodeLine& line) {
       return identity_(line.variable) == identity_(loop.variable);
     };
@@ -170,10 +171,10 @@ private:
            depth_with(loop, counts) == 1;
   }
 
-  /// How many loops of the robot are open at once at most, with this one, of those that count.
+  /// The maximum number of open robot loops that satisfy `counts`, including this one.
   template <typename Counts>
-  std::int64_t depth_with(const Loop& loop, Counts counts) const {
-    std::vector<std::int64_t> above(code_.routines.size(), 0); // open where a routine is called
+  std::int64_t depth_with(const CountedLoop& loop, Counts counts) const {
+    std::vector<std::int64_t> above(code_.routines.size(), 0); // loops open at calls of a routine
     std::int64_t deepest = 0;
     for (std::size_t round = 0; round < above.size(); ++round) {
       std::vector<std::int64_t> open = above;
@@ -192,10 +193,10 @@ private:
     return deepest;
   }
 
-  void write(const Loop& loop) {
+  void write(const CountedLoop& loop) {
     auto& lines = code_.lines;
     const auto top = lines[loop.test].label;
-    auto set = lines[loop.count]; // makes a turn the last one
+    auto set = lines[loop.count]; // makes this round the last one
     set.term = loop.last;
     auto first = set;
     first.kind = LineKind::For;
@@ -221,12 +222,12 @@ private:
       end_at(label, set, end);
   }
 
-  /// Where only exits lead, the loop is ended first.
+  /// Closes the loop first at a label that only exits reach.
   void end_at(std::uint32_t label, CodeLine set, CodeLine next) {
     const auto at = lines_of_labels(code_)[label];
     const auto& line = code_.lines[at];
     if (is(at + 2, LineKind::Next))
-      return; // it is already
+      return; // already done
     set.origin = next.origin = line.origin;
     set.routine = next.routine = line.routine;
     next.step = 0;
@@ -237,7 +238,7 @@ private:
   const Identity& identity_;
   std::vector<std::pair<std::uint32_t, std::uint32_t>> exits_; ///< lines, and labels outside
   Flow flow_;
-  std::vector<std::uint32_t> named_; ///< of each label: how often
+  std::vector<std::uint32_t> named_; ///< of each label: its references
   std::vector<std::uint32_t> at_;    ///< of each label: its line
 };
 

@@ -4,9 +4,9 @@
 
 namespace orb::structured {
 
-/// Loops that count become loops of the robot: its `next` counts, tests and jumps in one line.
-/// Where one is left before its end, that turn is made the last and a second `next` ends it, which
-/// no other pass knows: this comes last. Variables that share a letter are one.
+/// Turns counting loops into loops of the robot, whose `next` counts, tests and jumps in one line.
+/// An early exit makes its round the last and closes the loop by a second `next`; no other pass
+/// understands that, so this pass comes last. Variables that share a letter count as one.
 void count_loops(Code& code, const Identity& identity);
 
 } // namespace orb::structured

@@ -43,7 +43,7 @@ private:
       each_line_read(code_, other, [&](std::uint32_t v) { reads += v == line.variable ? 1 : 0; });
       if (reads == 0)
         continue;
-      // What a statement is given keeps the name that a fault speaks of.
+      // Keep the name of an argument, since fault messages use it.
       fits = fits && other.kind != LineKind::For && other.kind != LineKind::Next &&
              other.kind != LineKind::Switch &&
              (other.kind != LineKind::Do || code_.variables[line.variable].symbol == none);
@@ -60,7 +60,7 @@ private:
     return true;
   }
 
-  /// Whether the element changes, or the index, while the variable that holds it is needed.
+  /// True if the element or the index changes while the variable that holds it is live.
   bool moves(std::uint32_t held) const {
     std::vector<std::uint64_t> live;
     for (std::uint32_t b = 0; b < flow_.blocks.size(); ++b) {

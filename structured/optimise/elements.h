@@ -4,8 +4,8 @@
 
 namespace orb::structured {
 
-/// Reads elements where they are needed instead of from a variable that holds one while it does not
-/// change. Keeps what the program does. True where something changed.
+/// Replaces a variable that holds an unchanged element by reads of that element. Preserves
+/// behaviour; returns true if the program changed.
 bool use_elements(Code& code);
 
 } // namespace orb::structured

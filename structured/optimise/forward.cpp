@@ -11,10 +11,10 @@
 namespace orb::structured {
 namespace {
 
-constexpr std::uint32_t reach = 40; ///< lines that a value is followed
-constexpr std::uint16_t largest_term = 64;
+constexpr std::uint32_t reach = 40; ///< lines over which a value is forwarded
+constexpr std::uint16_t largest_joined_term = 64;
 
-/// Whether a line only sets what nobody reads, or a variable or an element to itself.
+/// True if the line only assigns a dead variable, or assigns a variable or an element to itself.
 bool is_dead(const Code& code, const CodeLine& line, std::span<const std::uint64_t> live) {
   if (line.kind == LineKind::SetElement)
     return line.proven && code.terms[line.term].kind == TermKind::Element;
@@ -53,8 +53,7 @@ private:
 
   // ---- facts about lines
 
-  /// Removes what nobody reads, and finds of each line the variables that it reads and nothing
-  /// after it.
+  /// Removes dead assignments, and finds for each line the variables that it reads last.
   void go_back() {
     last_reads_ = VariableSets(code_.lines.size(), code_.variables.size());
     std::vector<std::uint64_t> live;
@@ -81,7 +80,7 @@ private:
     return block != none && contains(liveness_.in[block], variable);
   }
 
-  // ---- moving a value to its only reader
+  // ---- forwarding a value to its only reader
 
   void move(std::uint32_t i) {
     const auto variable = code_.lines[i].variable;
@@ -108,10 +107,10 @@ private:
     }
   }
 
-  /// Puts `term`, computed at line `i`, in place of the variable in line `j`.
+  /// Replaces the variable in line `j` by `term`, computed at line `i`.
   void substitute(std::uint32_t i, std::uint32_t j, std::uint32_t variable, std::uint32_t term) {
     auto& line = code_.lines[j];
-    // What stops the program stops it at its own statement.
+    // A fault must be reported at its own statement.
     if ((code_.terms[term].effects & effect::faults) != 0 && code_.lines[i].origin != line.origin)
       return;
     std::uint8_t before = 0;
@@ -140,7 +139,7 @@ private:
     if (!done)
       return;
     drop(code_.lines[i]);
-    // What the term reads is now read as late as here.
+    // The variables of the term are now read as late as here.
     each_read(code_, term, [&](std::uint32_t v) {
       bool last = false;
       for (auto k = i; k <= j; ++k) {
@@ -156,8 +155,8 @@ private:
     return code_.terms[term].kind == TermKind::Variable && code_.terms[term].left == variable;
   }
 
-  /// `root` with `term` in place of the variable; nothing where that would be too deep, or would
-  /// change the order of what is noticed. `before` gathers what is computed before the variable.
+  /// `root` with the variable replaced by `term`; nothing if that is too deep or reorders side
+  /// effects. `before` collects the effects computed before the variable.
   std::optional<std::uint32_t> replaced(std::uint32_t root, std::uint32_t variable,
                                         std::uint32_t term, std::uint8_t& before) {
     const auto node = code_.terms[root];
@@ -183,7 +182,7 @@ private:
         return std::nullopt;
       result = code_.call(static_cast<spec::Function>(node.what), *operand);
     }
-    if (!result || code_.terms[*result].size > largest_term ||
+    if (!result || code_.terms[*result].size > largest_joined_term ||
         code_.terms[*result].levels > spec::value_of(spec::Limit::ExpressionLevels))
       return std::nullopt;
     return result;
@@ -197,8 +196,8 @@ private:
     });
   }
 
-  /// Reads the original all through the program where a copy, once made, is never another value
-  /// while it is needed; computes a sum where it is read, if that is one place.
+  /// Replaces a copy by its original everywhere if the two never differ while the copy is live.
+  /// Moves a sum to its reader if there is only one.
   bool copy_everywhere() {
     reads_ = reads_of(code_);
     writes_.assign(code_.variables.size(), {});
@@ -206,7 +205,7 @@ private:
       for (auto i = flow_.blocks[b].begin; i < flow_.blocks[b].end; ++i)
         each_write(code_, code_.lines[i], [&](std::uint32_t v) { writes_[v].push_back(b); });
     const auto first = liveness_.in[0];
-    std::vector<bool> moved(code_.variables.size(), false); // they live elsewhere now
+    std::vector<bool> moved(code_.variables.size(), false); // their live ranges changed
     bool any = false;
     for (auto& line : code_.lines) {
       if (line.kind != LineKind::Let)
@@ -247,7 +246,7 @@ private:
     for (auto& other : code_.lines) {
       std::uint8_t before = 0;
       bool done = false;
-      if (other.kind == LineKind::For) // its end is computed when its variable is set
+      if (other.kind == LineKind::For) // its end is computed after its variable is set
         continue;
       each_root(code_, other, [&](std::uint32_t& root) {
         const auto result = replaced(root, copied, line.term, before);
@@ -262,8 +261,8 @@ private:
     return false;
   }
 
-  /// Whether a variable is set while another one, which is set once, is needed or, for copies, is
-  /// what a loop counts in.
+  /// True if `set` is assigned while `needed`, which is assigned once, is live. For copies also if
+  /// `set` is the counter of a loop.
   bool meet(std::uint32_t needed, std::uint32_t set, bool is_copy) const {
     std::vector<std::uint64_t> live;
     for (const auto b : writes_[set]) {

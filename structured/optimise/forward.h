@@ -4,9 +4,8 @@
 
 namespace orb::structured {
 
-/// Moves what is computed into a variable to the one place that reads it, copies to where they come
-/// from, and takes out assignments that nobody reads. What happens keeps its order. True where
-/// something changed.
+/// Moves a value to the only place that reads it, replaces copies by their originals, and removes
+/// dead assignments. Side effects keep their order. Returns true if the program changed.
 bool forward_values(Code& code);
 
 } // namespace orb::structured

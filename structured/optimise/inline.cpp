@@ -18,7 +18,7 @@ public:
 
   bool run() {
     find_results();
-    std::uint32_t set = 0; // bytes of lines that set variables just before, such as parameters
+    std::uint32_t set = 0; // bytes of assignments just before the call, such as parameters
     for (std::uint32_t i = 0; i < code_.lines.size(); ++i) {
       const auto& line = code_.lines[i];
       if (line.kind == LineKind::Gosub && is_tested(i + 1, results_[line.variable])) {
@@ -44,7 +44,7 @@ public:
 
 private:
   bool is_worth(std::uint32_t routine) const {
-    constexpr std::uint32_t slack = 16; // bytes that fewer lines on the way may cost
+    constexpr std::uint32_t slack = 16; // bytes that fewer executed lines may cost
     const auto sites = sites_[routine];
     if (sites == 0)
       return false;
@@ -53,8 +53,8 @@ private:
                                                         tested_[routine] * result_bytes_[routine];
   }
 
-  /// Routines that set the same variable to a number each time they return: where it is only
-  /// tested, the call becomes jumps.
+  /// Finds routines that set the same variable to a number at each return: if it is only tested,
+  /// the call becomes jumps.
   void find_results() {
     std::vector<bool> others(code_.routines.size(), false);
     for (std::uint32_t i = 1; i < code_.lines.size(); ++i) {
@@ -83,8 +83,8 @@ private:
            code_.is_number(relation.right);
   }
 
-  /// Whether a sub calls no other that is written into it, too: callees first, and callers in a
-  /// later round.
+  /// True if a sub calls no other sub that will be inlined: callees go first, callers in a later
+  /// round.
   bool is_leaf(std::uint32_t routine) const {
     return std::none_of(code_.lines.begin(), code_.lines.end(), [&](const CodeLine& line) {
       const auto callee = callee_of(line);
@@ -142,12 +142,12 @@ private:
   }
 
   Code& code_;
-  std::vector<std::uint32_t> sites_;      ///< of each routine: how often it is called
+  std::vector<std::uint32_t> sites_;      ///< of each routine: its calls
   std::vector<std::uint32_t> bytes_;      ///< of each routine
   std::vector<std::uint32_t> call_bytes_; ///< of all calls of each routine
   std::vector<std::uint32_t> results_;    ///< of each routine: the variable of its result, or none
   std::vector<std::uint32_t> result_bytes_; ///< of the lines that set it
-  std::vector<std::uint32_t> tested_;       ///< of each routine: calls whose result is tested next
+  std::vector<std::uint32_t> tested_;       ///< of each routine: calls with a test below
   std::vector<std::uint32_t> labels_;
 };
 

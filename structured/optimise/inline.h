@@ -4,8 +4,8 @@
 
 namespace orb::structured {
 
-/// Writes subs in place of their calls where that makes the program no longer: those that are
-/// called in one place, and those that are shorter than their calls. True where there were any.
+/// Inlines subs if that does not make the program longer: those called once, and those shorter than
+/// their calls. Returns true if there were any.
 bool inline_calls(Code& code);
 
 } // namespace orb::structured

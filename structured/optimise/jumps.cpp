@@ -33,7 +33,7 @@ private:
     return changed_;
   }
 
-  /// The first line after a label that does something; none at the end of the text.
+  /// The first effective line after a label; none at the end of the text.
   std::uint32_t after(std::uint32_t line) const {
     while (line < code_.lines.size() && (code_.lines[line].kind == LineKind::Label ||
                                          code_.lines[line].kind == LineKind::Nothing))
@@ -41,7 +41,7 @@ private:
     return line < code_.lines.size() ? line : none;
   }
 
-  /// Where a jump to `label` ends; one label for all that stand together.
+  /// The final target of a jump to `label`; one label stands for all adjacent ones.
   std::uint32_t end_of(std::uint32_t label) const {
     for (int steps = 0; steps < 16; ++steps) {
       if (at_[label] == none)
@@ -68,7 +68,7 @@ private:
 
   void thread() {
     for (auto& line : code_.lines)
-      if (line.kind != LineKind::Next) // its label says which loop it ends
+      if (line.kind != LineKind::Next) // its label identifies its loop
         each_label(code_, line, [&](std::uint32_t& label) { redirect(label); });
     for (std::size_t r = 1; r < code_.routines.size(); ++r)
       if (code_.routines[r] != none)
@@ -98,7 +98,7 @@ private:
         line.kind = LineKind::Nothing;
         changed_ = true;
       } else if (line.kind == LineKind::For && !stepped[line.label]) {
-        // Its body never comes to the `next`: what is left of the loop is its start.
+        // The body never reaches the `next`: only the initial assignment remains.
         line.kind = LineKind::Let;
         changed_ = true;
       }
@@ -115,7 +115,7 @@ private:
     return (effects & (effect::faults | effect::clears)) != 0;
   }
 
-  /// Jumps to the next line, and two jumps that one does.
+  /// Removes jumps to the next line, and merges two jumps into one.
   void remove_idle() {
     for (std::uint32_t i = 0; i < code_.lines.size(); ++i) {
       auto& line = code_.lines[i];
@@ -165,7 +165,7 @@ bool straighten(Code& code) {
   auto loops = loops_of_lines(code);
   auto at = lines_of_labels(code);
   auto& lines = code.lines;
-  /// The lines that follow a label, if they can stand in place of a jump at `i`: first and last.
+  /// The lines after a label if they can move to a jump at `i`: first and last.
   const auto movable = [&](std::uint32_t i, std::uint32_t label) {
     constexpr auto stay = std::pair{none, none};
     if (at[label] == none)
@@ -180,7 +180,7 @@ bool straighten(Code& code) {
       ++last;
     if (last == lines.size() || (first <= i && i <= last))
       return stay;
-    // A loop stays in one piece, and what is in it stays there.
+    // Keep a loop, and the lines inside it, together.
     const bool cuts =
         std::any_of(lines.begin() + first, lines.begin() + last, [&](const auto& line) {
           return line.kind == LineKind::Next &&
@@ -195,7 +195,7 @@ bool straighten(Code& code) {
     auto [first, last] = movable(i, lines[i].label);
     if (first == none && i > 0 && lines[i - 1].kind == LineKind::If && !lines[i - 1].guard &&
         code.conditions[lines[i - 1].condition].glue == Glue::None) {
-      // Of the two ways from a test, the other one can come next.
+      // Place the other path of a test next.
       std::tie(first, last) = movable(i, lines[i - 1].label);
       if (first != none) {
         auto& relation = code.conditions[lines[i - 1].condition].first;

@@ -9,7 +9,7 @@
 namespace orb::structured {
 namespace {
 
-/// One print after the other, as pieces that fit.
+/// Cuts prints into pieces that fit.
 class Cutter {
 public:
   explicit Cutter(Code& code) : code_(code) {}
@@ -43,7 +43,7 @@ private:
     return sum;
   }
 
-  /// Computes the items that do something before any of them is printed.
+  /// Computes the items with side effects before any of them is printed.
   void hoist(const CodeLine& line) {
     for (auto i = line.parts_begin; i < line.parts_end; ++i) {
       auto& part = code_.parts[i];
@@ -67,7 +67,7 @@ private:
     begin(line);
     auto rest = width(line);
     for (auto part : parts) {
-      // A text stays whole where cutting it would not save a piece.
+      // Keep a text whole if cutting it would not save a piece.
       if (used_ + width(part) > most_ && rest <= most_)
         next(line);
       rest -= width(part);

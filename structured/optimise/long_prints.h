@@ -4,8 +4,8 @@
 
 namespace orb::structured {
 
-/// Cuts prints that could pass the robot's 32 bytes; the same bytes arrive. What the items do
-/// besides giving a value happens before the first of them leaves.
+/// Cuts prints that could exceed the robot's 32 bytes; the output stays the same. Side effects of
+/// the items come before the first of them is sent.
 void cut_prints(Code& code);
 
 } // namespace orb::structured

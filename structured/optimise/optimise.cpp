@@ -5,11 +5,11 @@
 #include "structured/optimise/forward.h"
 #include "structured/optimise/inline.h"
 #include "structured/optimise/jumps.h"
+#include "structured/optimise/known_values.h"
 #include "structured/optimise/long_prints.h"
 #include "structured/optimise/repeated.h"
 #include "structured/optimise/switches.h"
 #include "structured/optimise/tails.h"
-#include "structured/optimise/values.h"
 #include "structured/optimise/webs.h"
 
 #include <span>
@@ -17,9 +17,9 @@
 namespace orb::structured {
 namespace {
 
-// Beyond these no robot holds the program, and looking at it would take long.
+// Above these limits no robot has room for the program, and analysis would take long.
 constexpr std::size_t most_lines = 16384;
-constexpr std::size_t most_bits = std::size_t{1} << 27; ///< of sets of variables
+constexpr std::size_t most_bits = std::size_t{1} << 27; ///< in sets of variables
 
 bool is_huge(const Code& code) {
   return code.lines.size() > most_lines ||
@@ -28,10 +28,10 @@ bool is_huge(const Code& code) {
 
 struct Pass {
   bool (*run)(Code&);
-  std::uint32_t seen = none; ///< how much had been changed when it last ran
+  std::uint32_t seen = none; ///< the number of changes when it last ran
 };
 
-/// Runs passes in turn until none of them, seeing what all others have done, changes anything.
+/// Runs passes in turn until none of them changes anything.
 void settle(Code& code, std::span<Pass> passes, std::uint32_t& changes) {
   constexpr int most_rounds = 12;
   auto before = none;
@@ -50,14 +50,14 @@ void shorten(Code& code) {
       {clean_jumps},    {split_variables},
       {forward_values}, {drop_repeated},
       {merge_tails},    {inline_calls},
-      {straighten},     {[](Code& one) { return use_values(one, Ways::Split); }},
+      {straighten},     {[](Code& one) { return use_values(one, BranchChanges::Split); }},
   };
   std::uint32_t changes = 0;
   clean_jumps(code);
   settle(code, passes, changes);
-  // Nothing is left that reads the original instead.
+  // No pass replaces copies by originals after this point.
   changes += use_elements(code) ? 1 : 0;
-  changes += compute_arms(code) ? 1 : 0; // no way is known by these numbers any more
+  changes += compute_arms(code) ? 1 : 0; // from here on no branch depends on these numbers
   settle(code, passes, changes);
   clean_jumps(code);
 }
@@ -66,13 +66,13 @@ void shorten(Code& code) {
 
 void optimise(Code& code, Shape shape) {
   if (code.too_large)
-    return; // it ends in the middle: labels are missing
+    return; // it is cut off: labels are missing
   clean_jumps(code);
   code.too_large = is_huge(code);
   if (code.too_large)
     return;
   use_values(code);
-  const auto wrong_indices = code.wrong_indices; // later not every place of a statement is left
+  const auto wrong_indices = code.wrong_indices; // later passes drop some copies
   write_switches(code);
   if (shape == Shape::Shortest) // these move and join lines
     shorten(code);

@@ -4,14 +4,14 @@
 
 namespace orb::structured {
 
-/// What a program becomes.
+/// The goal of the optimisation.
 enum class Shape : std::uint8_t {
-  Shortest,  ///< what is sent to a robot
-  Steppable, ///< each statement keeps lines of its own, in its place: for who goes line by line
+  Shortest,  ///< for upload to a robot
+  Steppable, ///< every statement keeps its own lines in their place, for stepping line by line
 };
 
-/// Makes lines fewer and shorter without changing what they do; the same result for the same
-/// program, always. Afterwards every line has a form that the robot has.
+/// Makes the program shorter and faster without changing its behaviour; deterministic. Afterwards
+/// every line has a form that the robot has.
 void optimise(Code& code, Shape shape);
 
 } // namespace orb::structured

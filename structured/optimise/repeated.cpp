@@ -9,8 +9,10 @@ namespace {
 
 using compiler::Range;
 
-/// Finds lines that would do what has been done: calls and assignments. Each sub, each way to call
-/// one that changes what it is given, and each way to set a variable has a number, subs first.
+/// Finds calls and assignments whose effect is already in place. Each sub, each kind of call to a
+/// sub that changes its inputs, and each assignment has a number, its deed; subs come first. Large
+/// because it follows calls, assignments and array elements at once: each of them can invalidate
+/// the others.
 class RepeatFinder {
 public:
   explicit RepeatFinder(Code& code)
@@ -19,7 +21,7 @@ public:
         deed_of_(code.lines.size(), none), stored_(code.routines.size()),
         stores_(code.lines.size()) {}
 
-  /// Drops what need not be done again; true where there was any.
+  /// Removes redundant lines; returns true if there were any.
   bool run() {
     find_repeatable();
     number_deeds();
@@ -31,7 +33,7 @@ public:
   }
 
 private:
-  /// The elements that something reads or sets: a range of the index, or nothing.
+  /// The elements that a line reads or sets: a range of the index, or nothing.
   struct Elements {
     std::optional<Range> index;
 
@@ -44,7 +46,7 @@ private:
     }
   };
 
-  /// Whether a line gives the same again where what it reads is the same, and is not noticed.
+  /// True if a line gives the same result for the same inputs and has no visible effect.
   bool repeats(const CodeLine& line) const {
     constexpr std::uint8_t moving = effect::clears | effect::senses;
     const auto callee = callee_of(line);
@@ -53,7 +55,7 @@ private:
            (effects_of(code_, line) & moving) == 0 && (callee == none || repeatable_[callee]);
   }
 
-  /// Whether a line sets a variable to what it would be set to again.
+  /// True if repeating an assignment would set the same value.
   bool sets_again(const CodeLine& line) const {
     if (line.kind != LineKind::Let || line.guard || !repeats(line))
       return false;
@@ -62,7 +64,7 @@ private:
     return !itself;
   }
 
-  /// Routines that only compute, and what each of them changes of what it computes from.
+  /// Finds routines that only compute, and the inputs that each of them changes.
   void find_repeatable() {
     repeatable_[0] = false;
     for (std::size_t r = 1; r < repeatable_.size(); ++r) {
@@ -120,7 +122,8 @@ private:
     }
   }
 
-  /// What a call reads and gives; of what it changes only what it leaves there.
+  /// Finds the variables that invalidate a call: its inputs and its results, except inputs that it
+  /// overwrites.
   void find_spoilers(std::uint32_t callee, std::uint32_t deed) {
     each_member(flow_.touched[callee], [&](std::uint32_t v) {
       const bool is_set = contains(flow_.written[callee], v);
@@ -131,7 +134,7 @@ private:
   }
 
   void number_calls() {
-    std::vector<std::vector<std::uint32_t>> calls(code_.routines.size()); // lines that differ
+    std::vector<std::vector<std::uint32_t>> calls(code_.routines.size()); // distinct calls
     for (std::uint32_t i = 0; i < code_.lines.size(); ++i) {
       const auto callee = callee_of(code_.lines[i]);
       if (callee == none || !repeatable_[callee])
@@ -157,7 +160,8 @@ private:
     first_set_ = deeds_;
   }
 
-  /// The lines above a call that give it all that it changes, from what neither they nor it change.
+  /// The lines above a call that set all inputs that it changes, from values that neither they nor
+  /// the call change.
   std::vector<std::uint32_t> lines_that_give(std::uint32_t call) const {
     const auto callee = callee_of(code_.lines[call]);
     const auto written = flow_.written[callee];
@@ -185,12 +189,12 @@ private:
     return stays ? giving : std::vector<std::uint32_t>{};
   }
 
-  /// Whether a term depends on variables alone.
+  /// True if a term depends only on variables.
   bool is_still(std::uint32_t term) const {
     return (code_.terms[term].effects & (effect::clears | effect::senses | effect::elements)) == 0;
   }
 
-  /// Whether what stands above a call that has its number gives the same as other lines.
+  /// True if the lines above a numbered call assign the same values as `giving`.
   bool gets_the_same(std::uint32_t call, const std::vector<std::uint32_t>& giving) const {
     auto n = call;
     return std::all_of(giving.begin(), giving.end(), [&](std::uint32_t i) {
@@ -204,7 +208,7 @@ private:
   }
 
   void find_elements() {
-    ranges_.each_state([&](std::uint32_t i, const State& state) {
+    ranges_.each_state([&](std::uint32_t i, const VariableRanges& state) {
       const auto& line = code_.lines[i];
       const Elements here{state[index_variable]};
       if (sets_element(code_, line))
@@ -230,7 +234,7 @@ private:
         readers_.push_back(deed);
   }
 
-  // ---- what must be done again
+  // ---- invalidation
 
   void spoil(std::span<std::uint64_t> stale, const Elements& set) const {
     if (!set.index)
@@ -240,12 +244,12 @@ private:
         insert(stale, deed);
   }
 
-  /// Goes over a line: `stale` is what has to be done for what it gives.
+  /// Executes a line: `stale` is the set of deeds whose effect is no longer in place.
   void step(std::uint32_t i, std::span<std::uint64_t> stale) const {
     const auto& line = code_.lines[i];
     const auto deed = deed_of_[i];
     const auto callee = callee_of(line);
-    // An index that is set to none because it is wrong stops the program before anything else.
+    // An index set to an invalid value by its check stops the program before anything else.
     if ((deed != none && !contains(stale, deed)) || (line.guard && line.kind == LineKind::Let))
       return;
     each_write(code_, line, [&](std::uint32_t v) { unite(stale, spoilt_by_[v]); });
@@ -276,7 +280,7 @@ private:
     }
   }
 
-  /// Comes to a block with what is stale; true where that is news.
+  /// Enters a block with the stale deeds; returns true if that is new.
   bool enter(std::uint32_t b) {
     const bool first = !entered_[b];
     entered_[b] = true;
@@ -304,8 +308,8 @@ private:
     return changed;
   }
 
-  /// Calls `visit` with each line of a block that something comes to; before it, `stale_` are
-  /// stale. False where nothing comes to its end.
+  /// Calls `visit` with each line of a reachable block; `stale_` holds the stale deeds before it.
+  /// Returns false if the end of the block is unreachable.
   template <typename Visit>
   bool walk(std::uint32_t b, Visit visit) {
     if (!entered_[b])
@@ -321,7 +325,7 @@ private:
     return true;
   }
 
-  /// Drops what need not be done again.
+  /// Removes the redundant lines.
   bool rewrite() {
     std::vector<std::uint32_t> dropped; // lines
     for (std::uint32_t b = 0; b < flow_.blocks.size(); ++b)
@@ -340,18 +344,19 @@ private:
   const Flow& flow_;
   Liveness liveness_;
   std::vector<bool> repeatable_;                    ///< of each routine
-  std::vector<std::vector<std::uint32_t>> changed_; ///< of each: what it reads, and then sets
-  std::vector<std::uint32_t> deed_of_;              ///< of each line: its number, or none
+  std::vector<std::vector<std::uint32_t>> changed_; ///< of each: the inputs that it changes
+  std::vector<std::uint32_t> deed_of_;              ///< of each line: its deed, or none
   std::uint32_t deeds_ = 0;
-  std::uint32_t first_set_ = 0;        ///< the first number of a way to set a variable
-  std::vector<Elements> read_;         ///< of each of them; of routines with all that they call
-  std::vector<std::uint32_t> readers_; ///< those that read elements
-  std::vector<Elements> stored_;       ///< of each routine, with all that it calls
-  std::vector<Elements> stores_;       ///< of each line itself
-  VariableSets spoilt_by_;             ///< of each variable: what must be done again when it is set
-  VariableSets begins_;                ///< of each block: what is stale at its begin
-  VariableSets returned_;              ///< of each routine: what is where it returns
-  std::vector<bool> entered_;          ///< of each block: something comes to it
+  std::uint32_t first_set_ = 0;        ///< the first deed that is an assignment
+  std::vector<Elements> read_;         ///< of each deed; for routines including callees
+  std::vector<std::uint32_t> readers_; ///< deeds that read elements
+  std::vector<Elements> stored_;       ///< of each routine, including callees
+  std::vector<Elements> stores_;       ///< of each line alone
+  VariableSets spoilt_by_;             ///< of each variable: deeds that an assignment to it makes
+                                       ///< stale
+  VariableSets begins_;                ///< of each block: stale deeds at its start
+  VariableSets returned_;              ///< of each routine: stale deeds at its return
+  std::vector<bool> entered_;          ///< of each block: it is reachable
   std::vector<bool> comes_back_;       ///< of each routine
   std::vector<std::uint64_t> stale_;
 };

@@ -4,8 +4,8 @@
 
 namespace orb::structured {
 
-/// Drops calls that would compute, and assignments that would set, what is there already: it has
-/// been done on every way, and nothing that it reads or gives has changed since.
+/// Removes calls and assignments whose results are already in place: they ran on every path, and
+/// since then nothing changed their inputs or results.
 bool drop_repeated(Code& code);
 
 } // namespace orb::structured

@@ -9,7 +9,7 @@
 namespace orb::structured {
 namespace {
 
-/// Bytes that fewer lines on the way, without a call and its `return`, may cost.
+/// Bytes that may be spent to run fewer lines, without a call and its `return`.
 constexpr std::uint32_t call_slack = 6;
 
 bool is_pure_test(const Code& code, const CodeLine& line) {
@@ -17,8 +17,8 @@ bool is_pure_test(const Code& code, const CodeLine& line) {
   return !line.guard && condition.glue == Glue::None && is_pure(effects_of(code, line));
 }
 
-/// Goes over a line that may stand on a way; false where it may not.
-bool pass(const Code& code, const Ranges& ranges, const CodeLine& line, State& state) {
+/// Executes a line on the state; returns false if a path to copy must not contain it.
+bool pass(const Code& code, const Ranges& ranges, const CodeLine& line, VariableRanges& state) {
   switch (line.kind) {
   case LineKind::Let: state[line.variable] = ranges.range_of(line.term, state); return true;
   case LineKind::Nothing:
@@ -44,7 +44,7 @@ bool pass(const Code& code, const Ranges& ranges, const CodeLine& line, State& s
   return false;
 }
 
-/// Calls of subs that do little with what is known there.
+/// Finds calls of subs that do little with the values known there.
 class CallSplitter {
 public:
   CallSplitter(Code& code, Ranges& ranges)
@@ -57,7 +57,7 @@ public:
       if (const auto callee = callee_of(line); callee != none)
         ++routines_[callee].calls;
     }
-    ranges_.each_state([&](std::uint32_t i, const State& state) {
+    ranges_.each_state([&](std::uint32_t i, const VariableRanges& state) {
       if (code_.lines[i].kind == LineKind::Gosub)
         follow(i, state);
     });
@@ -80,14 +80,14 @@ private:
     std::uint32_t bytes = 0;
     std::vector<std::uint32_t> lines;
   };
-  struct Routine {
+  struct RoutineCost {
     std::uint32_t calls = 0;
     std::uint32_t bytes = 0;
     std::vector<Site> sites;
   };
 
-  /// Gathers what a call does if each test on its way is decided.
-  void follow(std::uint32_t call, State state) {
+  /// Collects the effective lines of a call if every test on its path is decided.
+  void follow(std::uint32_t call, VariableRanges state) {
     constexpr int longest = 48;
     constexpr std::uint32_t most_bytes = 64;
     Site site{call, 0, {}};
@@ -110,9 +110,10 @@ private:
     }
   }
 
-  /// The label that a line leads to, or none for the line below; nothing where that is not known
-  /// or the line does something.
-  std::optional<std::uint32_t> decided_target(const CodeLine& line, const State& state) const {
+  /// The label that a line jumps to, or none for the line below; nothing if it is unknown or the
+  /// line has an effect.
+  std::optional<std::uint32_t> decided_target(const CodeLine& line,
+                                              const VariableRanges& state) const {
     if (line.kind == LineKind::Goto)
       return line.label;
     if (line.kind == LineKind::If && is_pure_test(code_, line)) {
@@ -127,10 +128,10 @@ private:
     return label == none ? std::nullopt : std::optional(label);
   }
 
-  /// Whether lines in place of a call are no longer, or where they do away with the sub.
-  static bool is_worth(const Routine& routine, const Site& site) {
+  /// True if the lines that replace a call are not longer, or if they make the sub unnecessary.
+  static bool is_worth(const RoutineCost& routine, const Site& site) {
     if (routine.calls < 2)
-      return false; // it is written into its caller as it is
+      return false; // it is inlined as a whole
     if (site.bytes <= call_bytes + call_slack)
       return true;
     std::uint32_t all = 0;
@@ -162,7 +163,7 @@ private:
   Code& code_;
   Ranges& ranges_;
   std::vector<std::uint32_t> at_; ///< of each label: its line
-  std::vector<Routine> routines_;
+  std::vector<RoutineCost> routines_;
 };
 
 } // namespace

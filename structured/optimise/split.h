@@ -4,8 +4,8 @@
 
 namespace orb::structured {
 
-/// Writes subs out of which a call with known values does little. True where something changed;
-/// then what was known no longer fits the lines.
+/// Inlines subs whose calls with known values do little. Returns true if the program changed;
+/// `ranges` is then outdated.
 bool split_ways(Code& code, Ranges& ranges);
 
 } // namespace orb::structured

@@ -31,12 +31,12 @@ public:
   }
 
 private:
-  /// The tests that lead to a body.
+  /// The tests for a body.
   struct Tests {
     CodeLine of;
     std::uint32_t begin; ///< the label before them
     std::uint32_t body;
-    std::uint32_t otherwise; ///< where they lead when none holds
+    std::uint32_t otherwise; ///< the label if no test holds
     std::vector<Case> cases;
   };
 
@@ -81,7 +81,7 @@ private:
 
   void write_tests(const std::vector<Tests>& all) {
     for (const auto& tests : all) {
-      add(tests.of, LineKind::Goto).label = tests.body; // what runs into the body passes the tests
+      add(tests.of, LineKind::Goto).label = tests.body; // falling through skips the tests
       add(tests.of, LineKind::Label).label = tests.begin;
       for (std::size_t n = 0; n < tests.cases.size(); ++n) {
         const auto& one = tests.cases[n];

@@ -4,7 +4,7 @@
 
 namespace orb::structured {
 
-/// Writes what is left of `select` as tests, each before the lines it leads to.
+/// Writes each remaining `select` as tests, placed before the lines they lead to.
 void write_switches(Code& code);
 
 } // namespace orb::structured

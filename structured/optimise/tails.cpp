@@ -9,7 +9,7 @@
 namespace orb::structured {
 namespace {
 
-/// Whether one line can speak for both: what stops the program stops it at its own statement.
+/// True if one line can stand for both: a fault must be reported at its own statement.
 bool may_join(const Code& code, const CodeLine& a, const CodeLine& b) {
   return a.origin == b.origin || !(a.guard || b.guard || may_fault(code, a) || may_fault(code, b));
 }
@@ -22,7 +22,7 @@ bool same_part(const Code& code, const Part& a, const Part& b) {
   return a.value == b.value;
 }
 
-/// Whether one line can stand for both of two that go on to the next: they do the same.
+/// True if one of two lines that fall through can stand for both: they do the same.
 bool does_same(const Code& code, const CodeLine& a, const CodeLine& b) {
   if (a.kind != b.kind || a.robot != b.robot || !falls_through(a) || !may_join(code, a, b))
     return false;
@@ -36,7 +36,7 @@ bool does_same(const Code& code, const CodeLine& a, const CodeLine& b) {
                     [&](const Part& x, const Part& y) { return same_part(code, x, y); });
 }
 
-/// What is known of a line that stands for another one, too.
+/// Joins the ranges of a line that now stands for another one, too.
 void join_knowledge(Code& code, CodeLine& kept, const CodeLine& other) {
   kept.proven = kept.proven && other.proven;
   if (kept.kind == LineKind::If) {
@@ -64,12 +64,12 @@ public:
   }
 
 private:
-  /// Two ways that meet: the lines of each end before these.
+  /// Two paths that meet, each as the lines before its end.
   struct Tails {
     std::uint32_t kept_end = 0;
-    std::uint32_t kept = 0;      ///< where what is the same begins
+    std::uint32_t kept = 0;      ///< start of the common tail
     std::uint32_t other_end = 0; ///< a jump, `return` or `end`
-    std::uint32_t other = 0;     ///< where what is the same begins
+    std::uint32_t other = 0;     ///< start of the common tail
     std::uint32_t lines() const { return kept_end - kept; }
   };
   bool once() {
@@ -101,7 +101,7 @@ private:
     return true;
   }
 
-  /// Of each place where ways meet: the lines before which they end.
+  /// Of each place where paths meet: the ends of the paths.
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<std::uint32_t>> find_ends() const {
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<std::uint32_t>> ends;
     constexpr std::uint32_t returns = none;
@@ -121,7 +121,7 @@ private:
     return ends;
   }
 
-  /// Leads the way that ends at `other` into the one that has most in common with it.
+  /// Redirects the path that ends at `other` into the one with the longest common tail.
   void merge(const std::vector<std::uint32_t>& ends, std::uint32_t other) {
     Tails best;
     constexpr std::size_t most_ends = 24;
@@ -175,8 +175,8 @@ private:
   }
 
   Code& code_;
-  std::vector<std::uint32_t> loops_; ///< of each line: what stays in a loop
-  std::vector<bool> taken_;          ///< of each line: it is part of a tail already
+  std::vector<std::uint32_t> loops_; ///< of each line: its loop, which it must not leave
+  std::vector<bool> taken_;          ///< of each line: already part of a tail
   std::vector<std::pair<std::uint32_t, std::uint32_t>> labels_; ///< lines and labels before them
 };
 

@@ -4,8 +4,8 @@
 
 namespace orb::structured {
 
-/// Ways that do the same before they meet do it once: the lines of one go, and a jump leads it to
-/// those of the other. True where there were any.
+/// Merges the common tails of paths that meet: removes the lines of one path and redirects it to
+/// the other. Returns true if there were any.
 bool merge_tails(Code& code);
 
 } // namespace orb::structured

@@ -8,7 +8,7 @@
 namespace orb::structured {
 namespace {
 
-constexpr int longest_way = 12; ///< that a way is followed
+constexpr int longest_way = 12; ///< steps that a path is followed
 
 class Threader {
 public:
@@ -25,10 +25,10 @@ public:
     for (const auto entry : flow_.entries)
       if (entry != none)
         ++undecided_[entry];
-    ranges_.each_state([](std::uint32_t, const State&) {},
-                       [&](std::uint32_t b, State& state) { leave(b, state); });
-    for (const auto& way : ways_)
-      take(way);
+    ranges_.each_state([](std::uint32_t, const VariableRanges&) {},
+                       [&](std::uint32_t b, VariableRanges& state) { leave(b, state); });
+    for (const auto& shortcut : shortcuts_)
+      take(shortcut);
     for (const auto& [block, label] : labels_) {
       auto line = code_.lines[flow_.blocks[block].begin];
       line.kind = LineKind::Label;
@@ -39,19 +39,19 @@ public:
   }
 
 private:
-  /// A way from one block to another that is known to go on to a third.
-  struct Way {
+  /// An edge between two blocks that is known to continue to a third.
+  struct Shortcut {
     std::uint32_t from;
     std::uint32_t to;
     std::uint32_t end;
-    std::uint32_t* label; ///< that leads it there, or nullptr: `from` runs into `to`
+    std::uint32_t* label; ///< the label of the edge; nullptr: `from` falls through into `to`
   };
 
   std::uint32_t block_of(std::uint32_t label) const {
     return label < flow_.block_of_label.size() ? flow_.block_of_label[label] : none;
   }
 
-  /// Whether a block only sets variables and then goes on or tests something.
+  /// True if a block only assigns variables before it jumps or tests.
   bool leads_on(std::uint32_t b) const {
     for (auto i = flow_.blocks[b].begin; i < flow_.blocks[b].end; ++i) {
       const auto kind = code_.lines[i].kind;
@@ -63,14 +63,14 @@ private:
     return false;
   }
 
-  void leave(std::uint32_t b, State& state) {
+  void leave(std::uint32_t b, VariableRanges& state) {
     auto& line = code_.lines[flow_.blocks[b].end - 1];
     const auto next = b + 1 < flow_.blocks.size() ? b + 1 : none;
     if (line.kind == LineKind::If) {
       if (block_of(line.label) == none)
-        return look(b, next, nullptr, nullptr); // it goes on through lines that are added
+        return look(b, next, nullptr, nullptr); // it continues through the added lines
       const auto& relation = code_.conditions[line.condition].first;
-      auto copy = leads_on(block_of(line.label)) ? state : State{};
+      auto copy = leads_on(block_of(line.label)) ? state : VariableRanges{};
       if (copy.empty() || ranges_.narrow(relation, relation.comparison, copy))
         look(b, block_of(line.label), &line.label, copy.empty() ? nullptr : &copy);
       if (ranges_.narrow(relation, opposite(relation.comparison), state))
@@ -88,7 +88,7 @@ private:
     }
   }
 
-  void look(std::uint32_t from, std::uint32_t to, std::uint32_t* label, State* state) {
+  void look(std::uint32_t from, std::uint32_t to, std::uint32_t* label, VariableRanges* state) {
     if (to == none)
       return;
     below_ = label != nullptr ? from + 1 : none;
@@ -96,17 +96,17 @@ private:
     if (end == to)
       ++undecided_[to];
     else
-      ways_.push_back({from, to, end, label});
+      shortcuts_.push_back({from, to, end, label});
   }
 
-  /// The block that a way leads to through lines that then need not run.
-  std::uint32_t follow(std::uint32_t block, State& state) {
+  /// Follows an edge through lines that it can skip; returns the block where it ends.
+  std::uint32_t follow(std::uint32_t block, VariableRanges& state) {
     std::vector<std::uint32_t> set;
     steps_ = 0;
     return follow(flow_.blocks[block].begin, state, set);
   }
 
-  std::uint32_t follow(std::uint32_t i, State& state, std::vector<std::uint32_t>& set) {
+  std::uint32_t follow(std::uint32_t i, VariableRanges& state, std::vector<std::uint32_t>& set) {
     std::uint32_t best = none;
     for (; i < code_.lines.size() && ++steps_ < longest_way; ++i) {
       if (const auto b = block_at_[i];
@@ -114,7 +114,7 @@ private:
                                     [&](std::uint32_t v) { return contains(liveness_.in[b], v); }))
         best = b;
       if (best != none && best == below_)
-        return best; // no jump at all is better than one
+        return best; // no jump at all is best
       const auto& line = code_.lines[i];
       if (line.kind == LineKind::Label || line.kind == LineKind::Nothing)
         continue;
@@ -157,8 +157,8 @@ private:
     return best;
   }
 
-  /// The block that an `on` leads to, or none.
-  std::uint32_t chosen_of(const CodeLine& line, const State& state) const {
+  /// The block that an `on` jumps to, or none.
+  std::uint32_t chosen_of(const CodeLine& line, const VariableRanges& state) const {
     const auto label = is_pure(line.term) ? chosen_label(code_, ranges_, line, state) : none;
     return label == none ? none : block_of(label);
   }
@@ -167,33 +167,33 @@ private:
     return (code_.terms[term].effects & (effect::faults | effect::clears)) == 0;
   }
 
-  void take(const Way& way) {
-    // A test that is in one line with its arm stays so, unless the test that it leads to goes.
-    if (way.label != nullptr && undecided_[way.to] > 0 &&
-        is_one_line(code_, named_, flow_.blocks[way.from].end - 1))
+  void take(const Shortcut& shortcut) {
+    // Keep a test on one line with its arm, unless the test that it leads to disappears.
+    if (shortcut.label != nullptr && undecided_[shortcut.to] > 0 &&
+        is_one_line(code_, named_, flow_.blocks[shortcut.from].end - 1))
       return;
-    if (way.label != nullptr) {
-      *way.label = label_of(way.end);
+    if (shortcut.label != nullptr) {
+      *shortcut.label = label_of(shortcut.end);
       changed_ = true;
       return;
     }
-    auto& last = code_.lines[flow_.blocks[way.from].end - 1];
+    auto& last = code_.lines[flow_.blocks[shortcut.from].end - 1];
     const bool setting = last.kind == LineKind::Let && is_pure(last.term) &&
                          last.variable != index_variable &&
-                         !contains(liveness_.in[way.end], last.variable);
-    const auto& first = code_.lines[flow_.blocks[way.to].begin];
-    const bool jumps = first.kind == LineKind::Goto && block_of(first.label) == way.end;
-    if (!setting && (undecided_[way.to] > 0 || jumps))
+                         !contains(liveness_.in[shortcut.end], last.variable);
+    const auto& first = code_.lines[flow_.blocks[shortcut.to].begin];
+    const bool jumps = first.kind == LineKind::Goto && block_of(first.label) == shortcut.end;
+    if (!setting && (undecided_[shortcut.to] > 0 || jumps))
       return;
     CodeLine jump;
     jump.kind = LineKind::Goto;
-    jump.label = label_of(way.end);
+    jump.label = label_of(shortcut.end);
     jump.origin = last.origin;
     jump.routine = last.routine;
     if (setting)
       last = jump;
     else
-      added_.push_back({flow_.blocks[way.to].begin, jump});
+      added_.push_back({flow_.blocks[shortcut.to].begin, jump});
     changed_ = true;
   }
 
@@ -214,13 +214,13 @@ private:
   Ranges& ranges_;
   const Flow& flow_;
   Liveness liveness_;
-  std::vector<std::uint32_t> named_; ///< of each label: how often
+  std::vector<std::uint32_t> named_; ///< of each label: its references
   std::vector<AddedLine>& added_;
   std::vector<std::uint32_t> block_at_;  ///< of each line: the block that begins there, or none
-  std::vector<std::uint32_t> undecided_; ///< of each block: ways to it that nothing is known of
-  std::vector<Way> ways_;
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> labels_; ///< of blocks: to be added
-  std::uint32_t below_ = none; ///< the block below the jump that is looked at
+  std::vector<std::uint32_t> undecided_; ///< of each block: incoming edges with an unknown outcome
+  std::vector<Shortcut> shortcuts_;
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> labels_; ///< labels to add to blocks
+  std::uint32_t below_ = none; ///< the block below the current jump
   int steps_ = 0;
   bool changed_ = false;
 };

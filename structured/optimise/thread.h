@@ -8,12 +8,12 @@
 
 namespace orb::structured {
 
-/// A line to put before another one.
+/// A line to insert before another one.
 using AddedLine = std::pair<std::uint32_t, CodeLine>;
 
-/// Leads ways past tests whose outcome is known on that way: a flag that has just been set and is
-/// tested next becomes the jump itself. Lines keep their places; what is to be added between them
-/// is added to `added`. True where something changed.
+/// Jump threading: redirects edges past tests whose outcome is known on that edge, so a flag that
+/// was just set and is then tested becomes the jump itself. Lines keep their positions; insertions
+/// go to `added`. Returns true if the program changed.
 bool thread_tests(Code& code, Ranges& ranges, std::vector<AddedLine>& added);
 
 } // namespace orb::structured

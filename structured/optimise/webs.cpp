@@ -7,8 +7,8 @@
 namespace orb::structured {
 namespace {
 
-/// Values that a variable has: one for each assignment, and one for each block that it comes into.
-/// Those that can be the same value at some place belong together.
+/// Splits variables into webs. A value is one assignment, or one entry into a block; values that
+/// may reach the same place belong to the same web.
 class Splitter {
 public:
   explicit Splitter(Code& code)
@@ -34,7 +34,7 @@ public:
   }
 
 private:
-  /// Variables whose values no call brings along or back.
+  /// Finds variables whose values do not cross calls.
   void find_candidates() {
     candidate_.assign(code_.variables.size(), true);
     candidate_[index_variable] = false;
@@ -49,8 +49,8 @@ private:
       }
   }
 
-  /// Goes through all blocks: `visit(line)` before what the line sets has a new value, `meet(value,
-  /// other)` where one value comes into a block as the other.
+  /// Walks all blocks: `visit(line)` runs before the line's assignment takes effect, `meet(value,
+  /// other)` where one value enters a block as the other.
   template <typename Visit, typename Meet>
   void walk(Visit visit, Meet meet) {
     auto fresh = values_;
@@ -64,7 +64,7 @@ private:
       for (auto i = block.begin; i < block.end; ++i) {
         const auto& line = code_.lines[i];
         set.clear();
-        if (line.kind != LineKind::Next) // it adds to the value that it reads
+        if (line.kind != LineKind::Next) // it increments the value that it reads
           each_write(code_, line, [&](std::uint32_t v) { set.push_back(v); });
         const bool counts = line.kind == LineKind::For || line.kind == LineKind::Next;
         const auto counter = line.variable;
@@ -74,7 +74,7 @@ private:
           now_[v] = fresh++;
         if (!counts)
           continue;
-        // The robot wants the same variable in `for` and `next`, whatever is set in between.
+        // The robot needs the same variable in `for` and `next`, whatever is assigned in between.
         auto& tied = counters[line.label];
         if (tied != none && candidate_[counter])
           meet(now_[counter], tied);
@@ -149,14 +149,14 @@ private:
   Flow flow_;
   Liveness liveness_;
   std::vector<bool> candidate_;            ///< of each variable
-  std::vector<std::uint32_t> begins_;      ///< of each block: the first value that comes into it
-  std::uint32_t values_ = 0;               ///< how many come into blocks
-  std::uint32_t values_all_ = 0;           ///< with those that lines set
-  std::vector<std::uint32_t> now_;         ///< of each variable: its value
-  std::uint32_t next_ = 0;                 ///< the value that the line sets
-  std::vector<std::uint32_t> parent_;      ///< of each value: another that it belongs to
-  std::vector<std::uint32_t> variable_of_; ///< of each value that others belong to
-  std::vector<bool> taken_;                ///< of each variable: it stands for one of its values
+  std::vector<std::uint32_t> begins_;      ///< of each block: the first value that enters it
+  std::uint32_t values_ = 0;               ///< values that enter blocks
+  std::uint32_t values_all_ = 0;           ///< including those that lines assign
+  std::vector<std::uint32_t> now_;         ///< of each variable: its current value
+  std::uint32_t next_ = 0;                 ///< the value that the line assigns
+  std::vector<std::uint32_t> parent_;      ///< union-find: of each value, another of its web
+  std::vector<std::uint32_t> variable_of_; ///< of each root value
+  std::vector<bool> taken_;                ///< of each variable: already used for one of its webs
   bool changed_ = false;
 };
 

@@ -4,8 +4,8 @@
 
 namespace orb::structured {
 
-/// Makes each use of a name a variable of its own: the counters of two loops need not share what is
-/// known of them, nor a letter. True where there were any.
+/// Splits each variable into independent ones: the counters of two loops need not share ranges or a
+/// letter. Returns true if there were any.
 bool split_variables(Code& code);
 
 } // namespace orb::structured

@@ -3,7 +3,7 @@
 #include "base/text/text.h"
 #include "structured/text/messages.h"
 #include "structured/text/program.h"
-#include "structured/text/words.h"
+#include "structured/text/structured_words.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -15,14 +15,14 @@
 
 namespace orb::structured {
 
-/// Ends the parse of a line. Never leaves structured/text/parse.cpp.
-struct Stop {
+/// Ends the parse of a line. Never leaves structured/text/parse_structured.cpp.
+struct ParseStop {
   Reason reason;
   const char* begin;
-  const char* end = nullptr; ///< null where the span is the token at `begin`
+  const char* end = nullptr; ///< null: the span is the token at `begin`
 };
 
-/// Where the rules put what they find: straight into the program.
+/// Stores the parse results directly in the program.
 class Builder {
 public:
   explicit Builder(Program& program)
@@ -57,7 +57,7 @@ public:
   void leaf(NodeKind kind, std::uint8_t what, std::int32_t value, Span where) {
     program_.nodes.push_back({kind, what, 0, size(program_.nodes), value, where});
   }
-  /// A node over all nodes from `first`.
+  /// Adds a node over all nodes from `first`.
   void over(NodeKind kind, std::uint8_t what, std::uint32_t first, Span where) {
     program_.nodes.push_back({kind, what, 0, first, 0, where});
   }
@@ -93,7 +93,7 @@ public:
   void open(const char* at) {
     ++brackets_;
     if (++depth_ > deepest)
-      throw Stop{Reason::TooDeep, at};
+      throw ParseStop{Reason::TooDeep, at};
   }
   void close() {
     --brackets_;
@@ -101,7 +101,7 @@ public:
   }
   void open_not(const char* at) {
     if (++depth_ > deepest)
-      throw Stop{Reason::TooDeep, at};
+      throw ParseStop{Reason::TooDeep, at};
   }
   void close_not() { --depth_; }
   bool in_brackets() const { return brackets_ > 0; }
@@ -144,11 +144,11 @@ public:
     return {program_.statements.size(), program_.items.size(), program_.nodes.size(),
             program_.diagnostics.size()};
   }
-  /// Puts one broken statement in place of all since `mark`.
-  void fail(const Mark& mark, const Stop& stop, const char* begin, const char* limit) {
+  /// Replaces everything since `mark` by one broken statement.
+  void fail(const Mark& mark, const ParseStop& stop, const char* begin, const char* limit) {
     const auto meant = meaning_of(mark, stop, limit);
     auto& said = program_.diagnostics;
-    const bool foreign = said.size() > mark.diagnostics; // what others write there says more
+    const bool foreign = said.size() > mark.diagnostics; // its finding says more
     program_.statements.resize(mark.statements);
     program_.items.resize(mark.items);
     program_.nodes.resize(mark.nodes);
@@ -196,7 +196,7 @@ private:
             (sign == "[" && above[before] == ']'));
   }
 
-  /// Whether a line above has the same cause: a name that is too long, a second index.
+  /// True if a line above has the same cause: a name that is too long, a second index.
   bool is_said(Reason reason, Span found) {
     const auto text = program_.text_of(found);
     const bool index = reason == Reason::SecondIndex;
@@ -212,9 +212,9 @@ private:
     return false;
   }
 
-  /// What the line that begins at `mark` would have been. An `if` opens a block only where the line
-  /// ends with its condition: otherwise a statement may have been meant to follow.
-  Kind meaning_of(const Mark& mark, const Stop& stop, const char* limit) const {
+  /// The kind of statement that the line at `mark` was meant to be. An `if` opens a block only if
+  /// the line ends with its condition: otherwise a statement may have been meant to follow.
+  Kind meaning_of(const Mark& mark, const ParseStop& stop, const char* limit) const {
     if (mark.statements == program_.statements.size())
       return Kind::Broken;
     const auto& first = program_.statements[mark.statements];
@@ -247,9 +247,9 @@ private:
 
   Program& program_;
   const char* base_;
-  std::vector<std::uint32_t> slots_; ///< names by their hash; a power of two
+  std::vector<std::uint32_t> slots_; ///< hash table of names; the size is a power of two
   std::vector<Span> long_;           ///< names that are too long
-  std::vector<Span> indexed_;        ///< where a second index stands
+  std::vector<Span> indexed_;        ///< places of second indices
   int depth_ = 0;
   int brackets_ = 0;
 };

@@ -1,12 +1,11 @@
 #pragma once
 
-// The grammar of structured orbBasic. Private to structured/: only parse.cpp and the tests of the
-// grammar include it.
+// The grammar of structured orbBasic. Private to structured/text: only matching.h includes it.
 //
-// Every rule eats the gap after it. A gap is blanks, inside brackets also line ends and comments;
-// after a comma or an operator the line always goes on (`join`). The first token decides which
-// rule applies; what must follow is said with must<>. Rules that look a word up, or that a table
-// row decides, are matched by hand in parse.cpp.
+// Every rule consumes the gap after it. A gap is whitespace, inside brackets also line endings and
+// comments; after a comma or an operator the line always continues (`join`). The first token
+// selects the rule; must<> marks required parts. Rules that look up a word, or that depend on a
+// table row, are matched by hand in matching.h.
 
 #include "base/peg.h"
 
@@ -72,13 +71,13 @@ struct both           : seq<simple, star<and_tail>> {};
 struct or_tail        : seq<word_or, must<both>> {};
 struct condition      : seq<both, star<or_tail>> {};
 
-struct expression     : condition {}; // that it is a value is looked at later
+struct expression     : condition {}; // checked later to be a value
 
 // parts of statements
 
 struct equals         : seq<one<'='>, join> {};
-ORB_BY_HAND(place)     // what can be set: a name, an element, a timer or `ctrl`
-ORB_BY_HAND(new_name)  // the name that a declaration makes
+ORB_BY_HAND(place)     // what can be assigned: a name, an element, a timer or `ctrl`
+ORB_BY_HAND(new_name)  // the name of a declaration
 struct names          : list_must<seq<new_name, gap>, comma> {};
 struct parameters_end : one<')'> {};
 struct parameters     : opt<one<'('>, gap, opt<names>, must<parameters_end>, gap> {};
@@ -90,7 +89,7 @@ struct character_sign : one<'$'> {};
 struct character      : seq<character_sign, gap, must<expression>> {};
 struct print_item     : sor<seq<print_comma, join>, seq<sor<text, semicolon>, gap>, character, expression> {};
 
-// what stands after the word of a statement
+// the syntax after the word of a statement
 
 struct output         : star<print_item> {};
 struct one_value      : must<expression> {};
@@ -111,7 +110,7 @@ struct routine        : seq<must<new_name>, gap, parameters> {};
 struct locals         : must<names> {};
 struct jump           : seq<must<new_name>, gap> {};
 struct file           : must<file_name> {};
-ORB_BY_HAND(arguments) // as many expressions as the row of the statement has parameters
+ORB_BY_HAND(arguments) // one expression per parameter of the statement's row
 
 // clang-format on
 

@@ -2,8 +2,8 @@
 
 #include "base/text/text.h"
 #include "repair/tokens.h"
-#include "structured/text/blocks.h"
-#include "structured/text/foreign.h"
+#include "structured/text/foreign_words.h"
+#include "structured/text/link_blocks.h"
 #include "structured/text/messages.h"
 #include "structured/text/rules.h"
 #include "structured/text/texts.h"
@@ -45,9 +45,9 @@ const char* Lines::parse_line(const char* p) {
     while (skip_last(in, {}))
       continue;
     if (!at_end(in) && !skip_remark(in, p))
-      throw Stop{Reason::Trailing, in.current()};
+      throw ParseStop{Reason::Trailing, in.current()};
     next = in.current();
-  } catch (const Stop& stop) {
+  } catch (const ParseStop& stop) {
     builder_.fail(mark, stop, p, end_);
     while (!dos_.empty() && dos_.back().statement > mark.statements)
       dos_.pop_back();
@@ -72,7 +72,7 @@ void Lines::note_blocks(std::size_t from, std::string_view line) {
   if (builder_.statement().role() == Kind::Broken &&
       trim(line.substr(0, line.find('\''))).ends_with('{'))
     open_.push_back(Kind::Broken);
-  if (open_.size() > 64) // nobody nests so deep
+  if (open_.size() > 64) // a limit beyond practical nesting
     open_.erase(open_.begin());
 }
 
@@ -125,7 +125,7 @@ void Lines::statement(Input& in, Position position) {
     meant(in, name, name, position);
   } else if (in.empty() || *in.current() != '}' || !foreign(in, {in.current(), 1}, position)) {
     if (in.empty() || *in.current() != '?')
-      throw Stop{at_end(in) ? Reason::ExpectedStatement : Reason::NotAStatement, in.current()};
+      throw ParseStop{at_end(in) ? Reason::ExpectedStatement : Reason::NotAStatement, in.current()};
     print_line(in, {in.current(), 1});
   }
 }
@@ -135,7 +135,7 @@ void Lines::meant(Input& in, std::string_view word, std::string_view ours, Posit
   switch (meant.kind) {
   case WordKind::Name: named(in, word, position); return;
   case WordKind::Variable: assignment(in); return;
-  case WordKind::Function: throw Stop{Reason::NotAStatement, word.data()};
+  case WordKind::Function: throw ParseStop{Reason::NotAStatement, word.data()};
   case WordKind::Keyword: keyword(in, static_cast<Keyword>(meant.index), word, position); return;
   case WordKind::Statement:
     robot(in, static_cast<spec::Statement>(meant.index), word, position);
@@ -145,7 +145,7 @@ void Lines::meant(Input& in, std::string_view word, std::string_view ours, Posit
 
 void Lines::only_on_line(Position position, std::string_view word) const {
   if (position == Position::Branch)
-    throw Stop{Reason::BlockInOneLine, word.data()};
+    throw ParseStop{Reason::BlockInOneLine, word.data()};
 }
 
 void Lines::repeat_line(Input& in, std::string_view word) {
@@ -215,7 +215,7 @@ void Lines::keyword(Input& in, Keyword keyword, std::string_view word, Position 
   case Keyword::Or:
   case Keyword::Not:
   case Keyword::Min:
-  case Keyword::Max: throw Stop{Reason::NotAStatement, word.data()};
+  case Keyword::Max: throw ParseStop{Reason::NotAStatement, word.data()};
   }
 }
 
@@ -224,7 +224,7 @@ void Lines::conditional(Input& in, Kind kind, std::string_view word) {
   tail<g::one_value>(in);
   if (!tao::pegtl::parse<g::word_then, Action, Control>(in, builder_) && !skip_last(in, "then")) {
     if (!at_end(in) || kind == Kind::If)
-      throw Stop{Reason::ExpectedThen, in.current()};
+      throw ParseStop{Reason::ExpectedThen, in.current()};
   }
   builder_.finish(in.current());
 }
@@ -243,12 +243,12 @@ void Lines::robot(Input& in, spec::Statement robot, std::string_view word, Posit
   case spec::Form::LoopEnd: simple<g::counted>(in, Kind::Next, word); return;
   case spec::Form::Branch:
     if (robot == spec::Statement::Gosub)
-      throw Stop{Reason::Gosub, word.data()};
+      throw ParseStop{Reason::Gosub, word.data()};
     simple<g::jump>(in, Kind::Goto, word);
     return;
-  case spec::Form::IndexedBranch: throw Stop{Reason::On, word.data()};
+  case spec::Form::IndexedBranch: throw ParseStop{Reason::On, word.data()};
   case spec::Form::Output: print_line(in, word); return;
-  case spec::Form::Assignment: return; // `let` is none of the language's
+  case spec::Form::Assignment: return; // the language has no `let`
   case spec::Form::Entry:
   case spec::Form::Values:
   case spec::Form::Variables:
@@ -282,12 +282,12 @@ void Lines::print_line(Input& in, std::string_view word) {
   Input rest(quote + 1, end_, "");
   skip_blanks(rest);
   if (at_end(rest))
-    throw Stop{Reason::SingleQuotes, in.current(), quote + 1};
+    throw ParseStop{Reason::SingleQuotes, in.current(), quote + 1};
 }
 
 void Lines::if_line(Input& in, std::string_view word, Position position) {
   if (position == Position::Branch)
-    throw Stop{Reason::NestedIf, word.data()};
+    throw ParseStop{Reason::NestedIf, word.data()};
   conditional(in, Kind::If, word);
   if (at_end(in))
     return;
@@ -346,7 +346,7 @@ void Lines::named(Input& in, std::string_view name, Position position) {
 
 void Lines::set_name(std::string_view name) {
   if (name.size() > longest_name)
-    throw Stop{Reason::NameTooLong, name.data()};
+    throw ParseStop{Reason::NameTooLong, name.data()};
   builder_.statement().name = builder_.intern(span(name));
   builder_.statement().name_span = span(name);
 }
@@ -359,7 +359,7 @@ void Lines::assignment(Input& in) {
     const auto operation = spec::find_operator(*sign);
     if (!operation || sign + 1 == end_ || sign[1] != '=' || *sign == '{' || *sign == '}' ||
         *sign == '&' || *sign == '|')
-      throw Stop{Reason::ExpectedEquals, sign};
+      throw ParseStop{Reason::ExpectedEquals, sign};
     builder_.statement().operation = static_cast<std::uint8_t>(*operation);
     in.bump(1);
   }
@@ -382,12 +382,12 @@ void Lines::call(Input& in, std::string_view name, char next) {
     builder_.close();
     skip_blanks(in);
   } else if (!at_end(in) && !find_word(peek_name(in)).is(Keyword::Else)) {
-    throw Stop{Reason::NakedArguments, in.current()};
+    throw ParseStop{Reason::NakedArguments, in.current()};
   }
   builder_.finish(in.current());
 }
 
-// ---- what other languages write
+// ---- syntax of other languages
 
 bool Lines::skip_remark(Input& in, const char* line) {
   if (in.empty() || !holds("/ # - r R", {in.current(), 1}))
@@ -409,7 +409,7 @@ bool Lines::skip_remark(Input& in, const char* line) {
   d.fix->edits = {{builder_.span(at, line_end), parts.comment}};
   const auto said = trim(rest.substr(size));
   if (!said.empty() && !parts.tokens.empty() && std::all_of(said.begin(), said.end(), is_digit))
-    d.fix->safety = Safety::Unsafe; // `n # 0`: no remark, but another operator
+    d.fix->safety = Safety::Unsafe; // `n # 0`: another operator, not a comment
   builder_.report(std::move(d));
   in.bump(rest.size());
   return true;
@@ -473,7 +473,7 @@ bool Lines::foreign(Input& in, std::string_view first, Position position) {
   else if (equal_words(first, "do"))
     dos_.push_back({program_.statements.size(), program_.diagnostics.size()});
   const auto said = program_.diagnostics.size();
-  const bool unknown = here.empty() && row->here == block_end; // it ends a block of others
+  const bool unknown = here.empty() && row->here == block_end; // it ends a foreign block
   builder_.report(structured::foreign(program_, span(word),
                                       unknown ? std::string_view() : row->languages, here));
   const auto end = here.starts_with("end ") ? end_of_block(here.substr(4)) : std::nullopt;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "structured/text/foreign.h"
+#include "structured/text/foreign_words.h"
 #include "structured/text/matching.h"
 
 #include <cstddef>
@@ -10,10 +10,10 @@
 
 namespace orb::structured {
 
-/// Where a statement stands: a branch of a one-line `if` takes fewer.
+/// The position of a statement: a branch of a one-line `if` accepts fewer.
 enum class Position : std::uint8_t { Line, Branch };
 
-/// Parses the statements of a file one after the other.
+/// Parses the statements of a file in sequence. Large because each form of line has its own parser.
 class Lines {
 public:
   Lines(Program& program, const char* begin, const char* end);
@@ -24,15 +24,15 @@ private:
   Span span(std::string_view text) const;
   const char* parse_line(const char* p);
 
-  /// A line with a number, which is said of the first one: the others have it for the same reason.
+  /// Reports the first numbered line; the others are numbered for the same reason.
   const char* numbered(const char* p);
 
-  /// Where parsing goes on after a line that does not parse: the end of the line on which it
-  /// shows, unless that only goes on because a bracket was never closed.
+  /// Where parsing resumes after an error: at the end of the line with the error, unless that line
+  /// only continues because a bracket was never closed.
   const char* resume(const char* begin, const char* at) const;
 
-  /// Whether what stands at `at` is on another line than what ends at `last`, and a word that can
-  /// only begin a statement.
+  /// True if the text at `at` is on a later line than `last` and is a word that can only begin a
+  /// statement.
   bool begins_statement(const char* last, const char* at) const;
 
   static bool at_end(const Input& in);
@@ -40,10 +40,10 @@ private:
   template <typename Rule>
   void tail(Input& in) {
     if (!tao::pegtl::parse<Rule, Action, Control>(in, builder_))
-      throw Stop{reason<Rule>, in.current()};
+      throw ParseStop{reason<Rule>, in.current()};
   }
 
-  /// Begins a statement at its word, which has been looked at.
+  /// Begins a statement at its word, which was only peeked at.
   Statement& begin(Input& in, Kind kind, std::string_view word);
   template <typename Rule>
   void simple(Input& in, Kind kind, std::string_view word) {
@@ -54,13 +54,13 @@ private:
   void bare(Input& in, Kind kind, std::string_view word);
 
   void statement(Input& in, Position position);
-  /// A statement that begins with `word`, as if that were `ours`.
+  /// Parses a statement that begins with `word` as if it began with `ours`.
   void meant(Input& in, std::string_view word, std::string_view ours, Position position);
 
   void only_on_line(Position position, std::string_view word) const;
   void repeat_line(Input& in, std::string_view word);
 
-  /// `local a, b = 5`: what has a value is set right there.
+  /// `local a, b = 5`: a variable with a value is assigned at once.
   void local_line(Input& in, std::string_view word);
 
   void case_line(Input& in, std::string_view word);
@@ -73,37 +73,37 @@ private:
   void print_line(Input& in, std::string_view word);
   void if_line(Input& in, std::string_view word, Position position);
 
-  /// `end`, or `end` and what it ends.
+  /// `end`, or `end` and the word of its block.
   void end_line(Input& in, std::string_view word, Position position);
 
-  // ---- names at the beginning of a line
+  // ---- names at the start of a line
 
   void named(Input& in, std::string_view name, Position position);
   void set_name(std::string_view name);
   void assignment(Input& in);
   void call(Input& in, std::string_view name, char next);
 
-  // ---- what other languages write (structured/text/foreign.h)
+  // ---- syntax of other languages (structured/text/foreign_words.h)
 
-  /// A remark; `line` is where its line begins.
+  /// Skips a foreign comment; `line` is the start of its line.
   bool skip_remark(Input& in, const char* line);
 
-  /// A sign at the end of a line, in place of `instead`.
+  /// Skips a foreign sign at the end of a line; `instead` replaces it.
   bool skip_last(Input& in, std::string_view instead);
 
-  /// A statement that begins with words of others: it is read as if they were ours.
+  /// Parses a statement that begins with foreign words as their native equivalent.
   bool foreign(Input& in, std::string_view first, Position position);
 
   /// `break` at the end of a `case`.
   void leave_case(Input& in, std::string_view word, Position position);
 
-  /// A `do` whose condition stands at its end is a `repeat`.
+  /// Turns a `do` with its condition at the end into a `repeat`.
   void end_do(const Foreign& row);
 
-  /// Whether what a `def` begins gives a value back before the next one begins.
+  /// True if the body of a `def` returns a value before the next one begins.
   bool gives_value(const char* p) const;
 
-  /// Keeps which blocks are open after the statements of a line.
+  /// Tracks the blocks that are open after the statements of a line.
   void note_blocks(std::size_t from, std::string_view line);
 
   struct Do {
@@ -115,9 +115,9 @@ private:
   Builder builder_;
   const char* begin_;
   const char* end_;
-  std::vector<Kind> open_; ///< the blocks, innermost last; Broken: of others, in braces
-  std::vector<Do> dos_;    ///< `do` without its `loop` yet
-  bool numbered_ = false;  ///< a line with a number has been seen
+  std::vector<Kind> open_; ///< the open blocks, innermost last; Broken: foreign ones, in braces
+  std::vector<Do> dos_;    ///< each `do` still without its `loop`
+  bool numbered_ = false;  ///< a numbered line was seen
 };
 
 } // namespace orb::structured

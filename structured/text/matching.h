@@ -1,12 +1,12 @@
 #pragma once
 
-// How the rules of the grammar are matched that look a word up, what a matched rule does, and what
-// is reported where one that must match does not. Private to structured/text.
+// Hand-written matching of the grammar rules that look up a word, the actions of matched rules, and
+// the error if a required rule does not match. Private to structured/text.
 
 #include "structured/text/builder.h"
 #include "structured/text/grammar.h"
 #include "structured/text/numeral.h"
-#include "structured/text/words.h"
+#include "structured/text/structured_words.h"
 
 #include <algorithm>
 #include <charconv>
@@ -33,7 +33,7 @@ void skip_blanks(Input& in) {
     in.bump(1);
 }
 
-/// Blanks, and what lies between a line and the one that it goes on in.
+/// Skips whitespace, and the break between a line and its continuation.
 template <typename Input>
 void skip_lines(Input& in) {
   for (;;) {
@@ -48,10 +48,10 @@ void skip_lines(Input& in) {
 
 inline void add_numeral(Builder& builder, const char* begin, const char* end) {
   const auto numeral = read_numeral({begin, static_cast<std::size_t>(end - begin)});
-  if (numeral.state == Numeral::State::Bad)
-    throw Stop{Reason::BadNumber, begin, end};
-  if (numeral.state == Numeral::State::Fraction)
-    throw Stop{Reason::FractionOfMillisecond, begin, end};
+  if (numeral.validity == Numeral::Validity::Bad)
+    throw ParseStop{Reason::BadNumber, begin, end};
+  if (numeral.validity == Numeral::Validity::Fraction)
+    throw ParseStop{Reason::FractionOfMillisecond, begin, end};
   builder.leaf(numeral.duration ? NodeKind::Duration : NodeKind::Number, 0, numeral.value,
                builder.span(begin, end));
 }
@@ -75,15 +75,15 @@ template <typename Rule, apply_mode A, rewind_mode M, template <typename...> cla
           template <typename...> class Control, typename Input>
 void must_match(Input& in, Builder& builder, Reason reason) {
   if (!ORB_MATCHES(Rule))
-    throw Stop{reason, in.current()};
+    throw ParseStop{reason, in.current()};
 }
 
-/// The index of an element, from its `[` to its `]`.
+/// Matches the index of an element, from its `[` to its `]`.
 ORB_RULE_TEMPLATE
 void match_index(Input& in, Builder& builder, Span name, std::uint32_t id) {
   builder.open(in.current());
   in.bump(1);
-  static_cast<void>(ORB_MATCHES(gap)); // it always does
+  static_cast<void>(ORB_MATCHES(gap)); // it always matches
   must_match<condition, A, M, Action, Control>(in, builder, Reason::ExpectedExpression);
   must_match<element_end, A, M, Action, Control>(in, builder, Reason::ExpectedBracket);
   builder.close();
@@ -92,12 +92,12 @@ void match_index(Input& in, Builder& builder, Span name, std::uint32_t id) {
   builder.last().value = static_cast<std::int32_t>(id);
 }
 
-/// The operands of a call, from its `(` to its `)`; returns how many there are.
+/// Matches the operands of a call, from its `(` to its `)`; returns their number.
 ORB_RULE_TEMPLATE
 std::uint16_t match_operands(Input& in, Builder& builder) {
   builder.open(in.current());
   in.bump(1);
-  static_cast<void>(ORB_MATCHES(gap)); // it always does
+  static_cast<void>(ORB_MATCHES(gap)); // it always matches
   std::uint16_t count = 0;
   if (in.empty() || *in.current() != ')')
     do {
@@ -109,12 +109,12 @@ std::uint16_t match_operands(Input& in, Builder& builder) {
   return count;
 }
 
-/// A name that the program has made: a variable, an element or a call.
+/// Matches a name of the program: a variable, an element or a call.
 ORB_RULE_TEMPLATE
 void match_name(Input& in, Builder& builder, std::string_view name) {
   const auto where = builder.span(name.data(), name.data() + name.size());
   if (name.size() > longest_name)
-    throw Stop{Reason::NameTooLong, name.data(), name.data() + name.size()};
+    throw ParseStop{Reason::NameTooLong, name.data(), name.data() + name.size()};
   const auto id = builder.intern(where);
   const auto first = builder.nodes();
   in.bump(name.size());
@@ -159,11 +159,11 @@ ORB_MATCH(named_factor) {
   in.bump(name.size());
   skip_blanks(in);
   if (in.empty() || *in.current() != '(')
-    throw Stop{Reason::ExpectedOperand, in.current()};
+    throw ParseStop{Reason::ExpectedOperand, in.current()};
   const auto count = match_operands<A, M, Action, Control>(in, builder);
   if (count != (pair ? 2 : 1))
-    throw Stop{pair ? Reason::ExpectedTwo : Reason::ExpectedOne, name.data(),
-               name.data() + name.size()};
+    throw ParseStop{pair ? Reason::ExpectedTwo : Reason::ExpectedOne, name.data(),
+                    name.data() + name.size()};
   const Span whole{where.begin, builder.span(in.current(), in.current()).begin};
   builder.over(!pair                   ? NodeKind::Builtin
                : word.is(Keyword::Min) ? NodeKind::Least
@@ -180,15 +180,15 @@ ORB_MATCH(place) {
   const char* const end = name.data() + name.size();
   if (word.kind == WordKind::Variable) {
     if (spec::variables[word.index].access != spec::Access::ReadWrite)
-      throw Stop{Reason::ReadOnly, name.data(), end};
+      throw ParseStop{Reason::ReadOnly, name.data(), end};
     builder.leaf(NodeKind::System, word.index, 0, builder.span(name.data(), end));
     in.bump(name.size());
   } else if (word.kind != WordKind::Name) {
-    throw Stop{Reason::Reserved, name.data(), end};
+    throw ParseStop{Reason::Reserved, name.data(), end};
   } else {
     match_name<A, M, Action, Control>(in, builder, name);
     if (builder.last().kind == NodeKind::Call)
-      throw Stop{Reason::ExpectedPlace, name.data(), in.current()};
+      throw ParseStop{Reason::ExpectedPlace, name.data(), in.current()};
   }
   builder.expression(ItemKind::Place);
   return ORB_MATCHES(gap);
@@ -200,9 +200,9 @@ ORB_MATCH(new_name) {
     return false;
   const char* const end = name.data() + name.size();
   if (find_word(name).kind != WordKind::Name)
-    throw Stop{Reason::Reserved, name.data(), end};
+    throw ParseStop{Reason::Reserved, name.data(), end};
   if (name.size() > longest_name)
-    throw Stop{Reason::NameTooLong, name.data(), end};
+    throw ParseStop{Reason::NameTooLong, name.data(), end};
   const auto where = builder.span(name.data(), end);
   auto& statement = builder.statement();
   const auto id = builder.intern(where);
@@ -221,7 +221,7 @@ ORB_MATCH(arguments) {
   const auto& row = spec::info(robot);
   const auto most = row.parameters().size();
   const bool sleeps = robot == spec::Statement::Sleep;
-  // `RGB` takes one colour, `sleep` what it is for.
+  // `RGB` accepts one colour, `sleep` its duration alone.
   const std::size_t least = sleeps || robot == spec::Statement::Rgb ? 1 : row.required;
   if (robot == spec::Statement::Rgb && !in.empty() && *in.current() == '#') {
     std::uint32_t colour = 0;
@@ -229,7 +229,7 @@ ORB_MATCH(arguments) {
     const char* const end = end_of_name(begin + 1, in.end());
     const auto read = std::from_chars(begin + 1, end, colour, 16);
     if (end - begin != 7 || read.ptr != end)
-      throw Stop{Reason::BadNumber, begin, end};
+      throw ParseStop{Reason::BadNumber, begin, end};
     builder.item(ItemKind::Colour, colour, builder.span(begin, end));
     in.bump(7);
     skip_blanks(in);
@@ -239,7 +239,7 @@ ORB_MATCH(arguments) {
     if (n > 0 && !ORB_MATCHES(comma)) {
       if (n >= least)
         return true;
-      throw Stop{Reason::ExpectedComma, in.current()};
+      throw ParseStop{Reason::ExpectedComma, in.current()};
     }
     const auto name = peek_name(in);
     if (sleeps && n == 2 && equal_words(name, "restart")) {
@@ -251,7 +251,7 @@ ORB_MATCH(arguments) {
     }
   }
   if (most > 0 && !in.empty() && *in.current() == ',')
-    throw Stop{Reason::TooManyArguments, in.current()};
+    throw ParseStop{Reason::TooManyArguments, in.current()};
   return true;
 }
 
@@ -259,7 +259,7 @@ ORB_MATCH(arguments) {
 
 namespace g = grammar;
 
-/// What is reported where a rule that must match does not.
+/// The error if a required rule does not match.
 template <typename Rule>
 constexpr auto reason = Reason::ExpectedExpression;
 ORB_REASON(Reason::ExpectedParenthesis, g::group_end)

@@ -5,10 +5,10 @@
 #include "compiler/text/texts.h"
 #include "repair/tokens.h"
 #include "spec/limits.h"
-#include "structured/text/foreign.h"
+#include "structured/text/foreign_words.h"
 #include "structured/text/rules.h"
+#include "structured/text/structured_words.h"
 #include "structured/text/texts.h"
-#include "structured/text/words.h"
 
 #include <algorithm>
 #include <array>
@@ -25,13 +25,13 @@ Diagnostic malformed(const Program& program, Span found, Message problem, Messag
                  std::move(help));
 }
 
-/// What stands before a place, blanks and the ends of lines apart.
+/// The character before a place, ignoring whitespace and line endings.
 char sign_before(std::string_view text, std::uint32_t at) {
   const auto last = text.substr(0, at).find_last_not_of(" \t\r\n");
   return last == std::string_view::npos ? '\n' : text[last];
 }
 
-/// The name or word that ends before a place, blanks apart.
+/// The name or word that ends before a place, ignoring whitespace.
 Span word_before(std::string_view text, std::uint32_t at) {
   while (at > 0 && is_blank(text[at - 1]))
     --at;
@@ -46,7 +46,7 @@ bool begins_line(std::string_view text, std::uint32_t at) {
   return last == std::string_view::npos || is_line_end(text[last]);
 }
 
-/// The word that begins the line of a place.
+/// The first word of the line at a place.
 std::string_view first_word(std::string_view text, std::uint32_t at) {
   text.remove_prefix(text.substr(0, at).find_last_of("\r\n") + 1);
   text.remove_prefix(std::min(text.find_first_not_of(" \t"), text.size()));
@@ -54,8 +54,8 @@ std::string_view first_word(std::string_view text, std::uint32_t at) {
   return {text.data(), static_cast<std::size_t>(end - text.data())};
 }
 
-/// A value that is missing at the end of a line shows in the next one, but is
-/// to be written there.
+/// A value missing at the end of a line is noticed on the next line, but must be reported where it
+/// belongs.
 Diagnostic missing_value(const Program& program, Span found) {
   const auto end = program.text.find_last_not_of(" \t\r\n", found.begin - 1);
   const char sign = sign_before(program.text, found.begin);
@@ -65,8 +65,7 @@ Diagnostic missing_value(const Program& program, Span found) {
   return finding(rules::MalformedLine, {at, at + 1}, texts::MissingValueAfter(sign));
 }
 
-/// Values after a name without parentheses: a statement that is misspelt, or a
-/// call.
+/// Values after a name without parentheses: a misspelt statement, or a call.
 Diagnostic naked_arguments(const Program& program, Span found) {
   const auto called = word_before(program.text, found.begin);
   if (auto known = name_foreign(program, called, Stands::First))
@@ -90,15 +89,14 @@ Diagnostic naked_arguments(const Program& program, Span found) {
   return malformed(program, found, texts::CallInParentheses());
 }
 
-/// Whether `=` or `+=` and the like stand at a place.
+/// True if `=`, `+=` or the like is at a place.
 bool assigns(std::string_view text, std::size_t at) {
   if (at < text.size() && std::string_view("+-*/%").find(text[at]) != std::string_view::npos)
     ++at;
   return at < text.size() && text[at] == '=';
 }
 
-/// A word of the language where the line makes sense only with a name: `heading
-/// = 90`.
+/// A reserved word where the line makes sense only with a name: `heading = 90`.
 std::optional<Span> word_for_name(const Program& program, Reason reason, Span found) {
   const std::string_view text = program.text;
   const auto kind = find_word(program.text_of(found)).kind;
@@ -122,7 +120,7 @@ bool is_foreign(char c) {
   return static_cast<unsigned char>(c) >= 0x80;
 }
 
-/// What typing and copying bring in place of `"`, of blanks and of letters.
+/// Characters that typing and copying put in place of `"`, spaces and letters.
 Diagnostic foreign_character(const Program& program, Span found) {
   const std::string_view text = program.text;
   const auto sign = program.text_of(found);
@@ -168,7 +166,7 @@ Diagnostic reserved(const Program& program, Span word) {
                      : texts::WriteOnAll(fmt::format("my_{}", text)));
 }
 
-/// The robot's variables that a program can set.
+/// The robot's variables that a program can assign.
 Message settable() {
   std::string all;
   for (const auto& row : spec::variables)
@@ -177,16 +175,16 @@ Message settable() {
   return texts::OnlyTheseSet(std::move(all));
 }
 
-/// A sensor that is set. Where other lines read it, too, a variable was meant.
+/// An assignment to a sensor. If other lines read it, too, a variable was meant.
 Diagnostic read_only(const Program& program, Span found) {
   const auto sensor = program.text_of(found);
   auto d = finding(rules::WrongUse, found, compiler::texts::CanOnlyBeRead(sensor), settable());
   for (const auto* set : {"yaw", "xpos", "ypos"})
     if (equal_words(sensor, set))
-      return d; // by a statement
+      return d; // set by a statement
   constexpr std::size_t most = 64;
   if (program.diagnostics.size() > most)
-    return d; // nobody reads that far
+    return d; // a longer list helps nobody
   const auto name = fmt::format("my_{}", sensor);
   const auto size_of_all = static_cast<std::uint32_t>(program.text.size());
   const auto file =
@@ -233,8 +231,7 @@ Diagnostic single_quotes(const Program& program, Span found) {
   return d;
 }
 
-/// A number in front of a line: of one line it is a slip, of several another
-/// language.
+/// A number at the start of a line: a slip if it is only one line, otherwise another language.
 Diagnostic line_number(const Program& program, Span found) {
   const std::string_view text = program.text;
   const auto number = program.text_of(found);
@@ -243,7 +240,7 @@ Diagnostic line_number(const Program& program, Span found) {
     return finding(rules::MalformedLine, found, texts::NoStatementBegins(number));
   auto d =
       finding(rules::NumberedLine, found, texts::NoLineNumbers(), texts::TurnsNumbered("orb lift"));
-  // Of a few lines it is a slip, of most of them another language.
+  // A slip on a few lines, another language on most.
   std::size_t numbered = 0;
   std::size_t all = 0;
   for (auto begin = text.find_first_not_of(" \t\r\n"); begin < text.size(); ++all) {
@@ -263,15 +260,15 @@ Diagnostic line_number(const Program& program, Span found) {
 
 // clang-format off
 
-/// Why a line does not parse, by what stands where that shows. The first row
-/// that fits counts; what is empty fits anything.
+/// Why a line does not parse, by the token where the error shows. The first matching row counts; an
+/// empty column matches anything.
 struct Cause {
   Reason reason;
   std::string_view found; ///< any of these
-  std::string_view first; ///< the word that begins the line; `1`: a statement with values
+  std::string_view first; ///< the first word of the line; `1`: a statement with values
   const Rule* rule;
   const orb::Text* text;
-  std::string_view filler = {}; ///< of its hole; empty: what was found, `1`: the first word, `0`: that before
+  std::string_view filler = {}; ///< of its hole; empty: the token, `1`: the first word, `0`: the previous one
   const orb::Text* help = nullptr;
 };
 
@@ -317,7 +314,7 @@ constexpr auto causes = std::to_array<Cause>({
 
 // clang-format on
 
-/// What a row says of a line; nothing where none fits.
+/// Finds the row that explains a line; nothing if none matches.
 std::optional<Diagnostic> cause_of(const Program& program, Reason reason, Span found) {
   const auto text = program.text_of(found);
   const auto first = first_word(program.text, found.begin);

@@ -7,9 +7,9 @@
 
 namespace orb::structured {
 
-/// Why a line does not parse: at most one for each line.
+/// Why a line does not parse: at most one reason per line.
 enum class Reason : std::uint8_t {
-  Trailing, ///< something stands after a complete statement
+  Trailing, ///< text after a complete statement
   ExpectedStatement,
   ExpectedExpression,
   ExpectedPlace,
@@ -25,7 +25,7 @@ enum class Reason : std::uint8_t {
   ExpectedTwo,     ///< `max(1)`
   ExpectedQuote,
   ExpectedFile,
-  NotAStatement,  ///< a statement begins with a word that begins none
+  NotAStatement,  ///< a statement begins with a word that cannot begin one
   NakedArguments, ///< `leg 3`
   TooManyArguments,
   ReadOnly,
@@ -43,7 +43,7 @@ enum class Reason : std::uint8_t {
   SecondIndex,  ///< `a[1, 2]`, `a[1][2]`
 };
 
-/// Puts into words why a line does not parse; `found` is the token at which that shows.
+/// Explains why a line does not parse; `found` is the token where the error shows.
 Diagnostic explain(const Program& program, Reason reason, Span found);
 
 } // namespace orb::structured

@@ -5,10 +5,10 @@
 
 namespace orb::structured {
 
-/// A number as it is written, with its unit.
+/// A number as written, with its unit.
 struct Numeral {
-  enum class State : std::uint8_t { Good, Bad, Fraction };
-  State state = State::Good;
+  enum class Validity : std::uint8_t { Good, Bad, Fraction };
+  Validity validity = Validity::Good;
   bool duration = false;
   std::int32_t value = 0;
 };

@@ -22,7 +22,7 @@ std::vector<std::vector<Diagnostic>> findings_by_file(const Program& program) {
     std::erase_if(diagnostic.notes, [&](Note& note) {
       const auto there = place_of(program, note.span);
       note.span = there.span;
-      return there.file != place.file; // a note is shown in the file of its finding
+      return there.file != place.file; // a note must be in the file of its finding
     });
     if (diagnostic.fix)
       for (auto& edit : diagnostic.fix->edits)

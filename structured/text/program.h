@@ -1,8 +1,8 @@
 #pragma once
 
-// A structured program after parsing: the lines of the main file and of all that it includes, in
-// flat arrays of plain records that refer to each other by index. Blocks are not nested records but
-// links between the statements that open, part and close them.
+// A structured program after parsing: the lines of the main file and of all included files, in flat
+// arrays of plain records that refer to each other by index. Blocks are not nested records but
+// links between the statements that open, divide and close them.
 
 #include "base/diagnostic.h"
 #include "base/source.h"
@@ -16,7 +16,7 @@
 
 namespace orb::structured {
 
-/// Stands for an index that refers to nothing.
+/// An index that refers to nothing.
 inline constexpr std::uint32_t none = 0xFFFFFFFF;
 
 enum class NodeKind : std::uint8_t {
@@ -31,7 +31,7 @@ enum class NodeKind : std::uint8_t {
   Greatest, ///< max(a, b)
   Negate,
   Binary,   ///< `what` is a spec::Operator
-  Relation, ///< `what` is a Comparison; this and what follows are conditions
+  Relation, ///< `what` is a Comparison; this and the kinds below are conditions
   Not,
   And,
   Or,
@@ -39,9 +39,9 @@ enum class NodeKind : std::uint8_t {
 
 enum class Comparison : std::uint8_t { Equal, NotEqual, Less, Greater, LessEqual, GreaterEqual };
 
-/// A part of an expression or a condition, in postfix order: the operands stand right before what
-/// uses them. The last operand of node `i` is node `i - 1`; the one before it ends right before
-/// that one's `first` node.
+/// A part of an expression or a condition, in postfix order: operands come right before their
+/// operator. The last operand of node `i` is node `i - 1`; the one before it ends right before that
+/// one's `first` node.
 struct Node {
   NodeKind kind = NodeKind::Number;
   std::uint8_t what = 0;
@@ -55,13 +55,13 @@ struct Node {
 
 enum class ItemKind : std::uint8_t {
   Expression, ///< `value` is the root node; may be a condition
-  Place,      ///< what is set: `value` is a Name, Element or System node
+  Place,      ///< an assignment target: `value` is a Name, Element or System node
   Character,  ///< `$e` in print
   String,     ///< the span includes both quotes
   Comma,      ///< in print
   Semicolon,  ///< in print
   Name,       ///< `value` is a name: a parameter or local, the macro of `macrun`
-  To,         ///< stands between the ends of a range of `case`
+  To,         ///< between the ends of a range of `case`
   Colour,     ///< `value` is 0xRRGGBB, written `#RRGGBB`
   Restart,    ///< the word in `sleep`
 };
@@ -71,7 +71,7 @@ struct Item {
   std::uint32_t value = 0;
   Span span;
 
-  /// Whether `value` is the root of an expression.
+  /// True if `value` is the root of an expression.
   bool has_nodes() const {
     return kind == ItemKind::Expression || kind == ItemKind::Place || kind == ItemKind::Character;
   }
@@ -79,7 +79,7 @@ struct Item {
 
 enum class Kind : std::uint8_t {
   Robot,   ///< a statement of the robot with its arguments: `robot`
-  Assign,  ///< [Place, Expression]; `operation` where it is `+=` and the like
+  Assign,  ///< [Place, Expression]; `operation` for `+=` and the like
   Print,   ///< print items
   Const,   ///< [Expression]; `name`
   Local,   ///< [Name…]
@@ -89,7 +89,7 @@ enum class Kind : std::uint8_t {
   If,      ///< [Expression]
   ElseIf,  ///< [Expression]
   Else,    ///< of `if` and of `select`
-  EndIf,   ///< has an empty span after an `if` of one line
+  EndIf,   ///< has an empty span after a one-line `if`
   While,   ///< [Expression]
   EndWhile,
   Repeat,      ///< closed by Until
@@ -121,8 +121,8 @@ struct Statement {
   spec::Statement robot = spec::Statement::End;
   std::uint8_t operation = none_operation; ///< Assign: a spec::Operator
   bool one_line = false;                   ///< If, Else, EndIf: of an `if` on one line
-  Kind meant = Kind::Broken;               ///< Broken: what the line began as, where that shows
-  std::uint16_t depth = 0;                 ///< how many blocks are open around it
+  Kind meant = Kind::Broken;               ///< Broken: the kind that was begun, if known
+  std::uint16_t depth = 0;                 ///< the number of enclosing blocks
   std::uint32_t items_begin = 0;
   std::uint32_t items_end = 0;
   std::uint32_t name = none;
@@ -134,43 +134,43 @@ struct Statement {
 
   static constexpr std::uint8_t none_operation = 0xFF;
 
-  /// Where it stands among the blocks: a line that does not parse still opens or closes one.
+  /// The role among the blocks: a line that does not parse still opens or closes one.
   Kind role() const { return kind == Kind::Broken ? meant : kind; }
 };
 
-/// One file's share of the text and of the statements.
+/// The part of the text and of the statements that one file contributes.
 struct File {
-  std::string name;        ///< as findings show it
-  std::string path;        ///< as it is asked for
+  std::string name;        ///< as shown in findings
+  std::string path;        ///< as requested
   std::uint32_t begin = 0; ///< its first byte in Program::text
   std::uint32_t end = 0;
   std::uint32_t statements_begin = 0;
   std::uint32_t statements_end = 0;
 };
 
-/// What `use` brings: a macro that has a name and an id.
+/// A macro made available by `use`: its name and id.
 struct UsedMacro {
   std::uint32_t name = none;
   std::int32_t id = 0;
   std::uint32_t statement = none;
 };
 
-/// A file of macros, as it goes to the ball before the program.
+/// A file of macros, as sent to the ball before the program.
 struct MacroFile {
   std::string path;
   std::string text;
 };
 
 struct Program {
-  std::string text;        ///< of all files, one after the other
+  std::string text;        ///< of all files, concatenated
   std::vector<File> files; ///< the main file first
   std::vector<Statement> statements;
   std::vector<Item> items;
   std::vector<Node> nodes;
-  std::vector<Span> names; ///< where each name stands first; case does not count
+  std::vector<Span> names; ///< the first occurrence of each name; case does not count
   std::vector<UsedMacro> macros;
   std::vector<MacroFile> macro_files;
-  /// Every statement once, in the order of the text with each file at its first `include`.
+  /// Every statement once, in text order, with each file at its first `include`.
   std::vector<std::uint32_t> order;
   std::vector<Diagnostic> diagnostics;
 
@@ -181,7 +181,7 @@ struct Program {
   std::span<const Item> items_of(const Statement& statement) const {
     return {items.data() + statement.items_begin, items.data() + statement.items_end};
   }
-  /// The node before the first one of `root`: its left sibling.
+  /// The root of the left sibling of `root`.
   std::uint32_t before(std::uint32_t root) const { return nodes[root].first - 1; }
   const File& file_at(std::uint32_t offset) const;
 };
@@ -193,7 +193,7 @@ struct Place {
 };
 Place place_of(const Program& program, Span span);
 
-/// The findings about each file, with spans in that file's own text, in the order of the files.
+/// The findings of each file, with spans relative to that file's text, in file order.
 std::vector<std::vector<Diagnostic>> findings_by_file(const Program& program);
 
 } // namespace orb::structured

@@ -5,11 +5,11 @@
 #include "base/texts.h"
 #include "compiler/check.h"
 #include "compiler/text/rules.h"
-#include "structured/text/blocks.h"
-#include "structured/text/parse.h"
+#include "structured/text/link_blocks.h"
+#include "structured/text/parse_structured.h"
 #include "structured/text/rules.h"
+#include "structured/text/structured_words.h"
 #include "structured/text/texts.h"
-#include "structured/text/words.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -25,9 +25,9 @@ bool is_declaration(Kind kind) {
          kind == Kind::Broken;
 }
 
-class Reader {
+class ProgramReader {
 public:
-  Reader(Program& program, Files& files) : program_(program), files_(files) {}
+  ProgramReader(Program& program, Files& files) : program_(program), files_(files) {}
 
   void main(std::string name, std::string path, std::string_view text) {
     if (auto refused = compiler::refuse_text(text)) {
@@ -40,7 +40,7 @@ public:
   }
 
 private:
-  struct Open {
+  struct OpenFile {
     std::string path;
     std::string identity;
   };
@@ -49,7 +49,7 @@ private:
     return std::find(all.begin(), all.end(), one) != all.end();
   }
 
-  /// Parses a file and all that it includes.
+  /// Parses a file and its includes.
   void add(std::string name, std::string path, std::string_view text) {
     open_.push_back({path, files_.identity(path)});
     taken_.push_back(open_.back().identity);
@@ -67,7 +67,7 @@ private:
     open_.pop_back();
   }
 
-  /// The path that a statement names, as it counts from the file that is read.
+  /// Resolves the path in a statement relative to the current file.
   std::string path_of(std::uint32_t i) const {
     const auto quoted = program_.text_of(program_.items[program_.statements[i].items_begin].span);
     return resolve_path(open_.back().path, quoted.substr(1, quoted.size() - 2));
@@ -79,7 +79,7 @@ private:
                                            std::move(message), std::move(help)));
   }
 
-  /// Whether there are too many files of a kind to take another one; that is said once.
+  /// Returns true if there are too many files of a kind; reports that once.
   bool is_full(std::size_t& files, std::uint32_t i, const Row<Hole::Number>& too_many) {
     if (++files == most_files + 1)
       report(rules::MissingFile, i, too_many(most_files));
@@ -90,7 +90,7 @@ private:
     auto path = path_of(i);
     const auto identity = files_.identity(path);
     if (std::any_of(open_.begin(), open_.end(),
-                    [&](const Open& file) { return file.identity == identity; })) {
+                    [&](const OpenFile& file) { return file.identity == identity; })) {
       report(rules::IncludeCycle, i, texts::IncludesItself(path), texts::MoveIntoThird());
       return;
     }
@@ -150,7 +150,7 @@ private:
       if (macro.name.empty() || !macro.id)
         continue;
       any = true;
-      // The name becomes text of the program, so that it is a name like any other.
+      // Append the name to the text of the program, so that it can be interned.
       const auto begin = static_cast<std::uint32_t>(program_.text.size());
       program_.text += macro.name;
       const Span where{begin, static_cast<std::uint32_t>(program_.text.size())};
@@ -174,9 +174,9 @@ private:
   Files& files_;
   std::size_t included_ = 0;
   std::size_t used_ = 0;
-  std::vector<Open> open_;                ///< the files that lead to the one that is read
+  std::vector<OpenFile> open_;            ///< the chain of files being read
   std::vector<std::string> taken_;        ///< the identities of the program's files
-  std::vector<std::string> taken_macros_; ///< and of those with macros
+  std::vector<std::string> taken_macros_; ///< the identities of the macro files
 };
 
 } // namespace
@@ -211,7 +211,7 @@ std::string Files::identity(const std::string& path) {
 
 Program read(std::string name, std::string path, std::string_view text, Files& files) {
   Program program;
-  Reader(program, files).main(std::move(name), std::move(path), text);
+  ProgramReader(program, files).main(std::move(name), std::move(path), text);
   return program;
 }
 

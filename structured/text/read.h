@@ -8,8 +8,8 @@
 
 namespace orb::structured {
 
-/// Reads a program: the main file, what it includes and the macros that it uses. A file that is no
-/// text, too large or missing is one finding. `path` is what includes count from.
+/// Reads a program: the main file, its includes and the macros that it uses. A file that is not
+/// text, too large or missing gives one finding. Included paths are relative to `path`.
 Program read(std::string name, std::string path, std::string_view text, Files& files);
 
 } // namespace orb::structured

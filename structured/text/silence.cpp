@@ -3,14 +3,14 @@
 #include "base/silence.h"
 #include "compiler/text/rules.h"
 #include "structured/text/rules.h"
-#include "structured/text/words.h"
+#include "structured/text/structured_words.h"
 
 #include <algorithm>
 
 namespace orb::structured {
 namespace {
 
-/// Where the comment of a line begins; its end where it has none.
+/// The start of the comment of a line; the end of the line if there is none.
 std::uint32_t comment_of(std::string_view text, Span line) {
   bool quoted = false;
   for (auto i = line.begin; i < line.end; ++i) {
@@ -28,7 +28,7 @@ Span line_from(std::string_view text, std::uint32_t begin) {
   return {begin, end};
 }
 
-/// The line after one, whichever characters end it.
+/// The next line, whatever its line ending.
 Span line_behind(std::string_view text, Span line) {
   const bool pair = text.substr(line.end).starts_with("\r\n");
   const auto begin = line.end + (pair ? 2 : 1);
@@ -45,7 +45,7 @@ std::vector<AllowComment> allow_comments(std::string_view text) {
     const auto line = line_from(text, begin);
     const auto comment = comment_of(text, line);
     if (comment > at)
-      continue; // the words stand in a string
+      continue; // the mark is inside a string
     const bool alone = std::all_of(text.begin() + line.begin, text.begin() + comment, is_blank);
     const auto about = alone ? line_behind(text, line) : line;
     comments.push_back({{comment, line.end}, {about.begin, about.end + 1}});
@@ -53,7 +53,7 @@ std::vector<AllowComment> allow_comments(std::string_view text) {
   return comments;
 }
 
-/// What is said of a structured program: by its own rules, and of what it becomes.
+/// The rules that apply to a structured program: its own, and those of the compiled program.
 const std::vector<Rule>& all_rules() {
   static const auto all = [] {
     std::vector<Rule> both(rules::all().begin(), rules::all().end());

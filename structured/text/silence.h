@@ -4,9 +4,9 @@
 
 namespace orb::structured {
 
-/// Leaves out the warnings and notes that comments such as `' orb: allow unused-name` allow on
-/// their line, or on the next one where they stand alone. Errors stay: there is no program with
-/// them.
+/// Removes the warnings and notes allowed by comments such as `' orb: allow unused-name` on the
+/// same line, or on the next one if the comment is alone on its line. Errors stay: they prevent
+/// building.
 void silence(Program& program);
 
 } // namespace orb::structured

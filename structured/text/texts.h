@@ -2,7 +2,7 @@
 
 #include "base/texts.h"
 
-/// What is said about structured programs: `texts::NotOfThisLanguage(word)`.
+/// The messages about structured programs: `texts::NotOfThisLanguage(word)`.
 namespace orb::structured::texts {
 
 using namespace orb::texts;

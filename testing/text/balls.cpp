@@ -9,7 +9,7 @@
 namespace orb::testing {
 namespace {
 
-/// Whether a word of tests could stand where a ball's name does.
+/// True if a word of the test language could appear where a ball's name does.
 bool is_reserved(std::string_view word) {
   const auto words = operand_words();
   return find_word<ExpectationInfo>(expectations, word) != nullptr ||

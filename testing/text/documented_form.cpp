@@ -19,17 +19,17 @@ using repair::Rephrased;
 using repair::Token;
 using repair::Tokens;
 
-/// What is expected, without `expect`.
-struct State {
-  const ExpectationInfo* row = nullptr; ///< of the first of several
+/// The condition of an expectation, as test files write it.
+struct Condition {
+  const ExpectationInfo* row = nullptr; ///< the first, if there are several
   std::string text;
-  std::string lasts; ///< of `for 2s`
+  std::string lasts; ///< the time in `for 2s`
   std::optional<SaidWhen> when;
-  std::vector<std::string> more; ///< what needs lines of its own
+  std::vector<std::string> more; ///< what has to go on separate lines
   bool sure = true;
 };
 
-/// When, as test files say it; a second way where two are likely.
+/// When, in the words of test files; a second reading if two are likely.
 struct Timing {
   std::string text;
   std::string other = {};
@@ -54,7 +54,7 @@ bool expects(const Piece& piece) {
                      [&](const ExpectationInfo& row) { return piece.means(row.word); });
 }
 
-/// Whether a word can be the name of a zone alone: none that is nearly one of tests.
+/// True if a word alone can name a zone: it is not close to a word of the test language.
 bool names_zone(const Pieces& pieces) {
   std::vector<std::string_view> words;
   for (const auto& row : expectations)
@@ -68,7 +68,7 @@ bool names_zone(const Pieces& pieces) {
 
 class Form {
 public:
-  explicit Form(const Elsewhere& elsewhere) : elsewhere_(elsewhere) {}
+  explicit Form(const SurroundingText& elsewhere) : elsewhere_(elsewhere) {}
 
   std::optional<Rephrased> expectation(Pieces all) {
     asks_ = never_ = std::erase_if(all, is_not) > 0;
@@ -86,27 +86,27 @@ public:
       never_ = !never_;
     if (auto lines = never_ ? std::nullopt : printed_lines(all))
       return lines;
-    const auto state = joined(all, nullptr);
-    if (!state)
+    const auto condition = joined(all, nullptr);
+    if (!condition)
       return std::nullopt;
     constexpr std::string_view reach = "reach ";
-    const bool reaches = state->text.starts_with(reach) && !never_ && state->more.empty() &&
-                         state->text.find(' ', reach.size()) == std::string::npos;
-    const auto timing = timing_of(state->row->kind, state->when);
+    const bool reaches = condition->text.starts_with(reach) && !never_ && condition->more.empty() &&
+                         condition->text.find(' ', reach.size()) == std::string::npos;
+    const auto timing = timing_of(condition->row->kind, condition->when);
     const auto line = [&](const std::string& when) {
-      auto texts = state->more;
-      texts.insert(texts.begin(), state->text);
+      auto texts = condition->more;
+      texts.insert(texts.begin(), condition->text);
       std::string lines;
       for (const auto& text : texts)
         lines += fmt::format("{}{}{}{}{}{}{}", lines.empty() ? "" : "\n",
                              never_    ? "never "
                              : reaches ? ""
                                        : "expect ",
-                             text, state->lasts.empty() ? "" : " for ", state->lasts,
+                             text, condition->lasts.empty() ? "" : " for ", condition->lasts,
                              when.empty() ? "" : " ", when);
       return lines;
     };
-    return Rephrased{line(timing.text), state->sure && timing.sure,
+    return Rephrased{line(timing.text), condition->sure && timing.sure,
                      timing.other.empty() ? std::string() : line(timing.other)};
   }
 
@@ -119,7 +119,7 @@ public:
     return std::nullopt;
   }
 
-  /// A line of the head, or `test`.
+  /// Reads a line of the head, or `test`.
   std::optional<Rephrased> setting(const Pieces& line) const {
     std::size_t at = 0;
     while (at + 1 < line.size() && line[at].says_nothing() && !line[at].means("for"))
@@ -136,19 +136,19 @@ public:
   }
 
 private:
-  /// What pieces expect that nothing joins. `like` is what was expected before.
-  std::optional<State> single(const Pieces& pieces, const ExpectationInfo* like) {
+  /// Reads pieces without joining words. `like` is the expectation before them.
+  std::optional<Condition> single(const Pieces& pieces, const ExpectationInfo* like) {
     for (std::size_t i = 0; i < pieces.size(); ++i)
       for (const auto meaning : pieces[i].meanings) {
         const bool reach = meaning == info(LineWord::Reach).word;
         for (const auto& row : expectations)
           if (row.word == meaning || (reach && &row == &info(Word::Inside)))
-            if (auto state = filled(pieces, row, i, meaning))
-              return state;
+            if (auto condition = filled(pieces, row, i, meaning))
+              return condition;
       }
     std::vector<const ExpectationInfo*> implied{&info(Word::Variable), &info(Word::Color),
                                                 &info(Word::Beyond), &info(Word::Near)};
-    // A text alone is a line that is printed.
+    // A text alone is a printed line.
     if (asks_ || any(pieces, [](const Piece& one) { return one.text.starts_with('~'); }))
       implied.push_back(&info(Word::Print));
     if (depth_ == 0 && elsewhere_.has_course && names_zone(pieces))
@@ -156,13 +156,13 @@ private:
     if (like != nullptr)
       implied.insert(implied.begin(), like);
     for (const auto* row : implied)
-      if (auto state = filled(pieces, *row, SIZE_MAX, row->word))
-        return state;
+      if (auto condition = filled(pieces, *row, SIZE_MAX, row->word))
+        return condition;
     return std::nullopt;
   }
 
-  std::optional<State> filled(const Pieces& pieces, const ExpectationInfo& row, std::size_t subject,
-                              std::string_view word) {
+  std::optional<Condition> filled(const Pieces& pieces, const ExpectationInfo& row,
+                                  std::size_t subject, std::string_view word) {
     if (--budget_ < 0)
       return std::nullopt;
     Filling filling(pieces, elsewhere_);
@@ -170,21 +170,21 @@ private:
     const auto values = filling.fill(row.slots, subject);
     if (!values || (variable && !pieces[0].is(Piece::Word)))
       return std::nullopt;
-    State state;
-    state.row = &row;
-    state.text = variable ? values->substr(1) : std::string(word) + *values;
+    Condition condition;
+    condition.row = &row;
+    condition.text = variable ? values->substr(1) : std::string(word) + *values;
     if (&row == &info(Word::Error))
-      state.text += filling.take_name();
+      condition.text += filling.take_name();
     auto times = row.kind == Kind::Event ? filling.take_times() : std::string();
-    if (!filling.take_when(state.when, state.lasts))
+    if (!filling.take_when(condition.when, condition.lasts))
       return std::nullopt;
     if (row.kind == Kind::Event && times.empty() && depth_ == 0 && &row != &info(Word::Error))
       times = filling.take_count();
-    state.text += times;
+    condition.text += times;
     if (variable)
-      state.when = SaidWhen{"at", "end"};
-    state.sure = filling.is_sure() && (subject != SIZE_MAX || &row != &info(Word::Inside));
-    return filling.is_empty(word) ? std::optional(state) : std::nullopt;
+      condition.when = SaidWhen{"at", "end"};
+    condition.sure = filling.is_sure() && (subject != SIZE_MAX || &row != &info(Word::Inside));
+    return filling.is_empty(word) ? std::optional(condition) : std::nullopt;
   }
 
   bool is_joint(const Pieces& pieces, std::size_t at) const {
@@ -196,24 +196,24 @@ private:
            (never_ && equal_words(piece.text, "or") && expects(next));
   }
 
-  /// What pieces expect, perhaps several things: at once, or one before the other.
-  std::optional<State> joined(const Pieces& pieces, const ExpectationInfo* like) {
+  /// Reads one or several expectations: at the same time, or one before the other.
+  std::optional<Condition> joined(const Pieces& pieces, const ExpectationInfo* like) {
     if (auto one = single(pieces, like))
       return one;
     for (std::size_t at = 1; at + 1 < pieces.size(); ++at)
       if (is_joint(pieces, at))
-        if (auto state = join(pieces, at, at + 1, pieces[at], like))
-          return state;
+        if (auto condition = join(pieces, at, at + 1, pieces[at], like))
+          return condition;
     static const Piece both{Piece::Word, "and", {"and"}};
     for (std::size_t at = 2; at < pieces.size(); ++at) // `inside garage color green`
       if (expects(pieces[at]) && is_of_tests(pieces[at].text))
-        if (auto state = join(pieces, at, at, both, like))
-          return state;
+        if (auto condition = join(pieces, at, at, both, like))
+          return condition;
     return std::nullopt;
   }
 
-  std::optional<State> join(const Pieces& pieces, std::size_t end, std::size_t begin,
-                            const Piece& joint, const ExpectationInfo* like) {
+  std::optional<Condition> join(const Pieces& pieces, std::size_t end, std::size_t begin,
+                                const Piece& joint, const ExpectationInfo* like) {
     Pieces before(pieces.begin(), pieces.begin() + static_cast<std::ptrdiff_t>(end));
     Pieces behind(pieces.begin() + static_cast<std::ptrdiff_t>(begin), pieces.end());
     const bool after = joint.means("after");
@@ -226,32 +226,32 @@ private:
     for (; !behind.empty() && behind[0].means_any("then and expect"); behind.erase(behind.begin()))
       then = then || behind[0].means("then");
     ++depth_;
-    auto state = single(before, like);
-    const auto right = state && !behind.empty() ? joined(behind, state->row) : std::nullopt;
+    auto condition = single(before, like);
+    const auto right = condition && !behind.empty() ? joined(behind, condition->row) : std::nullopt;
     --depth_;
-    if (!right || (state->when && right->when) ||
-        (!state->lasts.empty() && !right->lasts.empty()) || (never_ && !lag.empty()))
+    if (!right || (condition->when && right->when) ||
+        (!condition->lasts.empty() && !right->lasts.empty()) || (never_ && !lag.empty()))
       return std::nullopt;
     const bool is_and = !then && (joint.is(Piece::Sign) || joint.means("and"));
-    const auto& when = state->when ? state->when : right->when;
-    state->sure = state->sure && right->sure && !then;
-    state->lasts += right->lasts;
+    const auto& when = condition->when ? condition->when : right->when;
+    condition->sure = condition->sure && right->sure && !then;
+    condition->lasts += right->lasts;
     if (!is_and && !after && when)
-      return std::nullopt; // `before` takes no time
+      return std::nullopt; // a time cannot be combined with `before`
     if (!lag.empty())
-      state->text += fmt::format(" {} after {} by {}", lag, right->text,
-                                 right->when ? right->when->time : slot::lag_by.usual);
+      condition->text += fmt::format(" {} after {} by {}", lag, right->text,
+                                     right->when ? right->when->time : slot::lag_by.usual);
     else if (equal_words(joint.text, "or") || (is_and && right->row->kind == Kind::Event))
-      state->more.push_back(right->text);
+      condition->more.push_back(right->text);
     else
-      state->text += fmt::format(" {} {}",
-                                 is_and  ? "and"
-                                 : after ? "after"
-                                         : "before",
-                                 right->text);
-    state->more.insert(state->more.end(), right->more.begin(), right->more.end());
-    state->when = lag.empty() ? when : std::nullopt;
-    return state;
+      condition->text += fmt::format(" {} {}",
+                                     is_and  ? "and"
+                                     : after ? "after"
+                                             : "before",
+                                     right->text);
+    condition->more.insert(condition->more.end(), right->more.begin(), right->more.end());
+    condition->when = lag.empty() ? when : std::nullopt;
+    return condition;
   }
 
   Timing timing_of(Kind kind, const std::optional<SaidWhen>& when) const {
@@ -275,7 +275,7 @@ private:
                   time.substr(time.find("..") == std::string::npos ? 0 : time.find("..") + 2),
               {},
               word != "after"};
-    if (word.empty()) // which of `at` and `within` is not said
+    if (word.empty()) // it does not say which of `at` and `within`
       return {never_     ? so_long
               : is_state ? "at " + time
                          : within,
@@ -294,8 +294,8 @@ private:
     return {at_end ? std::string() : within};
   }
 
-  /// Several texts are the lines that are printed, one below the other; one is the first of them
-  /// where others stand below.
+  /// Several texts are printed lines, one below the other. A single text is the first of them if
+  /// others follow below.
   std::optional<Rephrased> printed_lines(const Pieces& pieces) const {
     std::string all;
     std::size_t count = 0;
@@ -326,14 +326,14 @@ private:
   std::optional<Rephrased> happens(const Pieces& line, std::size_t subject,
                                    const vm::StimulusInfo& row) const;
 
-  const Elsewhere& elsewhere_;
-  bool asks_ = false; ///< it says `expect`, or a word for it
+  const SurroundingText& elsewhere_;
+  bool asks_ = false; ///< contains `expect`, or a word for it
   bool never_ = false;
-  int depth_ = 0;    ///< of what is joined
-  int budget_ = 300; ///< attempts in one line
+  int depth_ = 0;    ///< nesting of joined expectations
+  int budget_ = 300; ///< attempts left for this line
 };
 
-/// The slot that people call so; nothing where none is.
+/// Returns the slot that people call by this name; nothing if there is none.
 std::optional<std::size_t> slot_called(const Slots& slots, const Piece& piece) {
   for (std::size_t i = 0; i < slots.size() && slots.size() > 1; ++i)
     if (const auto name = slots[i].called->english;
@@ -342,7 +342,7 @@ std::optional<std::size_t> slot_called(const Slots& slots, const Piece& piece) {
   return std::nullopt;
 }
 
-/// `at TIME WORD VALUES`: names, units and directions tell which value is which.
+/// `at TIME WORD VALUES`: names, units and directions decide which value goes where.
 std::optional<Rephrased> Form::happens(const Pieces& line, std::size_t subject,
                                        const vm::StimulusInfo& row) const {
   const auto& slots = row.slots;
@@ -420,7 +420,7 @@ std::optional<Rephrased> Form::happens(const Pieces& line, std::size_t subject,
   const auto lacking = std::count(values.begin(), values.end(), "");
   if (next != open.end() || lacking > 1 || (lacking == 1 && slots.size() != 2))
     return std::nullopt;
-  const auto is_far = [](const std::string& value) { // a direction, and no byte
+  const auto is_far = [](const std::string& value) { // a direction, not a byte
     return parse_number<int>(value).value_or(0) > UINT8_MAX;
   };
   const bool exchanged = aims && lacking == 0 && is_far(values[1]) && !is_far(values[0]);
@@ -435,7 +435,7 @@ std::optional<Rephrased> Form::happens(const Pieces& line, std::size_t subject,
     text += " " + value;
   if (lacking == 0)
     return Rephrased{head + text, filling.is_sure() && !exchanged};
-  // What lacks is as usual, or as in the example.
+  // Take a missing value from the default, or from the example.
   const auto example = words_in(row.example);
   const auto said = values[0].empty() ? values[1] : values[0];
   const auto behind = slots[1].usual.empty() ? example.back() : slots[1].usual;
@@ -447,9 +447,9 @@ std::optional<Rephrased> Form::happens(const Pieces& line, std::size_t subject,
                    with_last};
 }
 
-/// A line of those below `prints`, or the words that print one.
+/// Reads a line below `prints`, or words for printing one.
 std::optional<Rephrased> printed_line(const Tokens& line, Pieces pieces,
-                                      const Elsewhere& elsewhere) {
+                                      const SurroundingText& elsewhere) {
   std::erase_if(pieces, [](const Piece& piece) { return piece.is(Piece::Sign); });
   const auto in_quotes = [](std::string_view text) { return fmt::format("\"{}\"", text); };
   if (pieces.size() == 2 && pieces[0].means("print") && is_whole_text(pieces[1])) {
@@ -468,7 +468,7 @@ std::optional<Rephrased> printed_line(const Tokens& line, Pieces pieces,
   return lists ? std::optional(Rephrased{in_quotes(repair::join(words)), false}) : std::nullopt;
 }
 
-/// `run police.macro`: what a file is for is told by its ending.
+/// `run police.macro`: the extension tells what a file is for.
 std::optional<Rephrased> file_line(const Pieces& pieces) {
   if (pieces.size() != 2 || !pieces[0].is(Piece::Word) || is_of_tests(pieces[0].text))
     return std::nullopt;
@@ -481,13 +481,13 @@ std::optional<Rephrased> file_line(const Pieces& pieces) {
 
 } // namespace
 
-std::vector<Rephrased> documented_forms(const Tokens& written, const Elsewhere& around) {
+std::vector<Rephrased> documented_forms(const Tokens& written, const SurroundingText& around) {
   const auto line = plain_line(written);
   const auto pieces = pieces_of(line);
   if (pieces.empty())
     return {};
   auto elsewhere = around;
-  if (repair::has_token(written, "(")) { // a call has no tolerance of ours
+  if (repair::has_token(written, "(")) { // the tolerance in a call belongs to another framework
     if (elsewhere.near_by.empty())
       elsewhere.near_by = slot::distance_by.usual;
     if (elsewhere.heading_by.empty())

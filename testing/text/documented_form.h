@@ -9,8 +9,8 @@
 
 namespace orb::testing {
 
-/// What a line says, in the documented form of the word whose slots take all of it.
+/// Rewrites a line in the documented form of each word whose slots take all of it.
 std::vector<repair::Rephrased> documented_forms(const repair::Tokens& line,
-                                                const Elsewhere& elsewhere);
+                                                const SurroundingText& elsewhere);
 
 } // namespace orb::testing

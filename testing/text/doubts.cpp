@@ -47,13 +47,13 @@ private:
 
   std::string text_of(const Expectation& one) const { return std::string(source_.text(one.span)); }
 
-  /// The line as it is to be written.
+  /// Offers the line as it should be written.
   static void write(Diagnostic& d, const Expectation& one, const std::string& line) {
     d.help = file_texts::Write(line);
     d.fix = Fix{d.help, {{one.span, line}}, Safety::Unsafe};
   }
 
-  /// The whole seconds that a run needs for a time.
+  /// The whole seconds of run time that a moment needs.
   static std::int64_t seconds_for(Duration time) { return (time + 999ms) / Duration{1s}; }
 
   void check_bound(const Test& test, const Expectation& one) {
@@ -66,7 +66,7 @@ private:
     const auto line = fmt::format("for {}s", seconds_for(time));
     auto& d = report(rule, span, file_texts::EndsBefore(), file_texts::WriteForLonger(line));
     if (source_.line(test.line).find(" for ") != std::string_view::npos)
-      return; // of this test alone
+      return; // set by this test itself
     for (std::uint32_t n = 1; n <= source_.line_count(); ++n) {
       Cursor cursor(source_, n);
       const auto begin = cursor.offset();
@@ -86,12 +86,12 @@ private:
     }
   }
 
-  /// The ball starts at 0,0 where nothing says that it starts elsewhere.
+  /// The ball starts at 0,0 unless a line says otherwise.
   void check_start(const Expectation& one) {
     if (one.word != Word::Near || one.other_ball || file_.course || !file_.balls.empty() ||
         !one.joined.empty() || one.order != Order::Free || one.lasts > Duration{} ||
         one.when.kind != Of::AnyTime ||
-        std::hypot(one.x, one.y) > (one.never ? one.by : 0)) // another place is worth a way
+        std::hypot(one.x, one.y) > (one.never ? one.by : 0)) // another place implies driving
       return;
     auto& d =
         report(rules::Start, one.span,
@@ -129,7 +129,7 @@ private:
     return repair::join(repair::slice(what, 1));
   }
 
-  /// Whether what never happens covers all the times at which the other is expected.
+  /// True if `never` covers all times at which the other one is expected.
   static bool covers(const When& never, const When& expected) {
     if (never.kind == Of::AnyTime)
       return true;
@@ -160,7 +160,7 @@ private:
     }
   }
 
-  /// The test that a line belongs to; the first one for those above it.
+  /// Returns the test that contains a line; the first one for lines above it.
   const Test* test_of(std::uint32_t line) const {
     const Test* found = nullptr;
     for (const auto& test : file_.tests)
@@ -184,10 +184,10 @@ private:
     }
   }
 
-  /// A wall that stands where the ball does, before anything has moved.
+  /// Reports a wall at the ball's place, before anything has moved.
   void check_walls() {
     if (!file_.balls.empty())
-      return; // each has a place of its own
+      return; // each ball has a start
     for (std::uint32_t n = 1; n <= source_.line_count(); ++n) {
       Cursor cursor(source_, n);
       const auto begin = cursor.offset();

@@ -10,8 +10,8 @@
 
 namespace orb::testing {
 
-/// What can be read, and can hardly be meant: what holds from the start, what contradicts itself,
-/// what comes after the end of the run.
+/// Finds valid lines that are probably not intended: true from the start, contradictory, or after
+/// the end of the run.
 std::vector<Diagnostic> find_doubts(const Source& source, const TestFile& file);
 
 } // namespace orb::testing

@@ -6,7 +6,7 @@
 namespace orb::testing {
 namespace {
 
-/// What may stand behind `expect`; a variable stands there by its name.
+/// Lists what can follow `expect`; variables appear by name.
 std::vector<std::string_view> expectable() {
   std::vector<std::string_view> words;
   for (const auto& row : expectations)
@@ -132,12 +132,12 @@ void FileReader::take_color(Cursor& cursor, Expectation& one, const SlotValue& v
             static_cast<std::uint8_t>(rgb)};
   };
   one.text = value.text;
-  constexpr std::size_t size = 7; // with `#`
+  constexpr std::size_t size = 7; // including the `#`
   const bool is_hex = one.text.starts_with('#');
   const auto hex = parse_number<std::uint32_t>(std::string_view(one.text).substr(1), 16);
   if (is_hex && one.text.size() == size && hex)
     one.colors.push_back(color_of(*hex));
-  // A word may mean what LEDC shows or what a web page does.
+  // A colour name may mean what LEDC shows or what a web page shows.
   for (const auto& row : spec::led_colours)
     if (row.name == one.text && one.colors.empty())
       one.colors.push_back({row.red, row.green, row.blue});

@@ -6,7 +6,7 @@
 #include "base/text/text.h"
 #include "repair/repair.h"
 #include "spec/limits.h"
-#include "structured/text/words.h"
+#include "structured/text/structured_words.h"
 #include "testing/text/rules.h"
 #include "testing/text/test_file.h"
 #include "testing/text/texts.h"
@@ -25,7 +25,7 @@ inline const Row* find_word(std::span<const Row> rows, std::string_view word) {
   return found == rows.end() ? nullptr : &*found;
 }
 
-/// A column of a table: its words.
+/// The words in one column of a table.
 template <class Rows, class Row>
 std::vector<std::string_view> words_of(const Rows& rows, std::string_view Row::*column) {
   std::vector<std::string_view> words;
@@ -39,13 +39,15 @@ inline std::string listed(const std::vector<std::string_view>& words) {
   return fmt::format("{}", fmt::join(words, ", "));
 }
 
-/// What was written of an expectation's place in time and number.
-struct Said {
-  Span when{};  ///< empty: nothing
-  Span times{}; ///< empty: nothing
-  Span order{}; ///< empty: nothing
+/// What a line says about an expectation's time and count.
+struct GivenSpans {
+  Span when{};  ///< empty: not written
+  Span times{}; ///< empty: not written
+  Span order{}; ///< empty: not written
 };
 
+/// Reads a test file line by line. Large because each kind of line and each part of an expectation
+/// has its own reader.
 class FileReader {
 public:
   explicit FileReader(const Source& source) : source_(source) {}
@@ -59,7 +61,7 @@ private:
 
   void read_line(std::uint32_t line);
 
-  /// A line goes above the first test.
+  /// Moves a line above the first test.
   Fix move_up(std::uint32_t line) const;
 
   void read_row(LineWord word, Cursor& cursor, Span span, std::uint32_t line);
@@ -92,7 +94,7 @@ private:
 
   std::optional<std::size_t> ball_called(std::string_view name) const;
 
-  /// In a room: of which ball it is expected. False, and a finding, where none is named.
+  /// In a room: reads which ball it is about. False, with a finding, if none is named.
   bool read_whose(Cursor& cursor, Expectation& one);
 
   // Tests.
@@ -101,7 +103,7 @@ private:
 
   void read_test(Cursor& cursor, Span span, std::uint32_t line);
 
-  /// What only the whole file can say about a test.
+  /// Completes a test with what only the whole file can tell.
   void complete(Test& test);
 
   // Expectations.
@@ -110,12 +112,12 @@ private:
 
   void read_expectation(Cursor& cursor, Span span, std::uint32_t line, bool never);
 
-  /// The word of what is expected; false, and a finding, where it is none.
+  /// Reads the word of an expectation; false, with a finding, if there is none.
   static bool read_what(Cursor& cursor, Expectation& one);
 
   static void unknown_expectation(Cursor& cursor, std::string_view word);
 
-  /// Whether `NAME =` stands here; the cursor stays where it is.
+  /// True if `NAME =` follows; does not move the cursor.
   static bool begins_variable(Cursor& cursor);
 
   void read_operands(Cursor& cursor, Expectation& one);
@@ -128,48 +130,49 @@ private:
 
   void read_error(Cursor& cursor, Expectation& one);
 
-  // How often and when.
+  // Count and time.
 
   static bool is_when(std::string_view word);
 
   static bool is_join(std::string_view word);
 
-  /// Whether `TIME after` stands here.
+  /// True if `TIME after` follows.
   static bool is_lag(Cursor& cursor);
 
-  /// Whether `N times` or `A to B times` stands here.
+  /// True if `N times` or `A to B times` follows.
   static bool is_times(Cursor& cursor);
 
-  void read_times(Cursor& cursor, Expectation& one, Said& said);
+  void read_times(Cursor& cursor, Expectation& one, GivenSpans& said);
 
-  void read_when(Cursor& cursor, Expectation& one, Said& said);
+  void read_when(Cursor& cursor, Expectation& one, GivenSpans& said);
 
-  /// `and STATE`.
-  void read_joined(Cursor& cursor, Expectation& one, const Said& said);
+  /// Reads `and STATE`.
+  void read_joined(Cursor& cursor, Expectation& one, const GivenSpans& said);
 
-  /// `for TIME`.
+  /// Reads `for TIME`.
   static void read_lasts(Cursor& cursor, Expectation& one);
 
-  /// `after WHAT` and `before WHAT`.
-  void read_order(Cursor& cursor, Expectation& one, Said& said);
+  /// Reads `after WHAT` and `before WHAT`.
+  void read_order(Cursor& cursor, Expectation& one, GivenSpans& said);
 
   void finish(Cursor& cursor, Expectation& one, Span span, std::uint32_t line);
 
-  /// Whether `after` and `before` fit the rest.
-  static void check_order(Cursor& cursor, const Expectation& one, const Said& said);
+  /// Reports `after` and `before` that do not fit the rest.
+  static void check_order(Cursor& cursor, const Expectation& one, const GivenSpans& said);
 
   static void left_over(Cursor& cursor, const Expectation& one);
 
-  /// Whether what was said of time fits the word.
-  static void check_when(Cursor& cursor, const Expectation& one, const Said& said, Span first);
+  /// Reports times that do not fit the word.
+  static void check_when(Cursor& cursor, const Expectation& one, const GivenSpans& said,
+                         Span first);
 
   const Source& source_;
   TestFile file_;
   bool has_tests_ = false;
-  bool prints_ = false; ///< the last expectation is `prints`, and its lines may follow
+  bool prints_ = false; ///< the last expectation is `prints`; its lines may follow
   std::optional<Seeds> seeds_;
   std::optional<Duration> bound_;
-  std::vector<vm::TimedStimulus> head_; ///< the stimuli of every test
+  std::vector<vm::TimedStimulus> head_; ///< stimuli for every test
   std::vector<std::string> head_lines_;
 };
 

@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::string_view fronts = "within at during until after by for points seeds facing";
 
-/// A number as it is written, without zeros that say nothing.
+/// A number without trailing zeros.
 std::string shortest(double value) {
   return fmt::format("{}", std::round(value * 1000) / 1000);
 }
@@ -63,7 +63,7 @@ bool Filling::has_front(std::size_t at, std::string_view meanings) const {
   return word != nullptr && word->means_any(meanings);
 }
 
-/// Whether no word says what a piece is for, or one that may say nothing.
+/// True if no word says what a piece is for, or only one that may be left out.
 bool Filling::is_free(std::size_t at) const {
   const auto* const word = front(at);
   return word == nullptr || word->says_nothing();
@@ -88,7 +88,7 @@ std::size_t Filling::find(Fits fits) const {
   return none;
 }
 
-/// An amount in one of the units; nothing where it is another measure.
+/// Writes an amount in one of the units; nothing if it measures something else.
 std::optional<std::string> Filling::written(const Amount& amount, std::span<const Unit> units) {
   const auto& first = units.front();
   if (amount.is_bare()) {
@@ -111,11 +111,11 @@ std::optional<std::string> Filling::fill(const Slots& slots, std::size_t subject
   std::string all;
   for (const auto& slot : slots) {
     if (slot.kind == slot::Kind::Rest)
-      continue; // its language reads it
+      continue; // the reader accepts it
     auto text = value(slot);
     if (!text && slot.may_lack)
       continue;
-    if (!text && slot.before == "by") { // as in the line above
+    if (!text && slot.before == "by") { // same as on the line above
       text = slot.kind == slot::Kind::Length ? elsewhere_.near_by : elsewhere_.heading_by;
       sure_ = false;
       if (const auto by = find([&](std::size_t i) { return pieces_[i].text == slot.before; });
@@ -163,7 +163,7 @@ std::optional<std::string> Filling::number(const Slot& slot) {
   return slot.most == spec::ball::full_circle - 1 ? in_circle(amount.number) : amount.number;
 }
 
-/// Two numbers; the one with the tolerance is set aside.
+/// Takes two numbers; sets the tolerance aside.
 std::optional<std::string> Filling::place() {
   std::vector<std::size_t> all;
   for (std::size_t i = 0; i < pieces_.size(); ++i)
@@ -185,7 +185,7 @@ std::optional<std::string> Filling::place() {
       [&](std::size_t i) { return has_front(i, "by within") && (!is_free(i) || is_length(i)); });
   set_aside(is_length);
   set_aside([&](std::size_t i) { return all.size() == 3 && i == all[2]; }); // `near 90 90 15`
-  if (all.size() == 1 && !is_length(all[0])) { // `near 90.90`: a point for a comma
+  if (all.size() == 1 && !is_length(all[0])) { // `near 90.90`: a point in place of the comma
     const auto& said = take(all[0]).most.number;
     const auto point = said.find('.');
     sure_ = false;
@@ -195,7 +195,7 @@ std::optional<std::string> Filling::place() {
   }
   if (all.size() != 2)
     return std::nullopt;
-  // A tolerance below 1 is in metres, and so is the place then.
+  // A tolerance below 1 is in metres, and then so is the place.
   constexpr double few = 10;
   auto* const by = by_ == none ? nullptr : &pieces_[by_].most;
   const bool metres =
@@ -235,7 +235,7 @@ std::optional<std::string> Filling::side(const Slot& slot) {
   return fmt::format("{}{}{}", piece.axis, told ? piece.sign[0] : cm[0] == '-' ? '<' : '>', cm);
 }
 
-/// The name of a zone, a macro or a variable.
+/// Takes the name of a zone, a macro or a variable.
 std::optional<std::string> Filling::name() {
   const auto is_name = [&](std::size_t i) {
     return (pieces_[i].is(Piece::Word) && !is_of_tests(pieces_[i].text)) ||
@@ -285,7 +285,7 @@ std::optional<std::string> Filling::range(const Slot& slot) {
     if (piece.sign.starts_with('>') && slot.is_limited())
       return fmt::format("{}..{}", amount.number, slot.most);
     if ((!piece.sign.empty() && piece.sign != "=") || amount.is_bare() != bare)
-      return std::nullopt; // up to which?
+      return std::nullopt; // no upper bound
     if (bare)
       return fmt::format("{0}..{0}", amount.number);
     constexpr double tenth = 0.1;
@@ -465,7 +465,7 @@ bool Filling::take_when(std::optional<SaidWhen>& when, std::string& lasts) {
     if (one.word.empty() && (piece.sign.starts_with('<') || has_front(i, "by")))
       one.word = "within";
     if (one.word.empty() && word != nullptr && word->text == "during")
-      return false; // from when?
+      return false; // no start
     if (piece.sign.starts_with('>') || (when && one.word != "for") ||
         (one.word == "for" && !lasts.empty()))
       return false;

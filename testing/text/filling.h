@@ -16,63 +16,65 @@
 namespace orb::testing {
 
 /// What the rest of the file says.
-struct Elsewhere {
-  Duration bound{}; ///< after how long a run is stopped
+struct SurroundingText {
+  Duration bound{}; ///< time limit of a run
   bool has_course = false;
   bool may_have_zones = false;
-  std::string near_by;    ///< the tolerance of the last place; empty without one
-  std::string heading_by; ///< the same of headings
-  bool has_bound = false; ///< the file says how long a run is
-  bool has_texts = false; ///< lines that begin with a quote, as those below `prints`
+  std::string near_by;    ///< tolerance of the last place; empty without one
+  std::string heading_by; ///< tolerance of the last heading; empty without one
+  bool has_bound = false; ///< the file sets a time limit
+  bool has_texts = false; ///< has lines that begin with a quote, like those below `prints`
 };
 
-/// When, as it was said.
+/// When, as the line says it.
 struct SaidWhen {
-  std::string_view word; ///< `within`, `at`, `during`, `until`, `after`; empty where only a time is
-  std::string time;      ///< or `end`
+  /// `within`, `at`, `during`, `until`, `after`; empty if there is only a time
+  std::string_view word;
+  std::string time; ///< or `end`
 };
 
-/// A time as test files write it; a number alone is seconds, a large one milliseconds.
+/// A time as test files write it. A number without a unit is seconds, a large one milliseconds.
 std::string time_of(const Amount& amount);
 
 /// A whole angle from 0 to 359.
 std::string in_circle(const std::string& degrees);
 
-/// The file that a piece names; empty where it names none.
+/// The file that a piece names; empty if it names none.
 std::string file_of(const Piece& piece);
 
-/// Puts the pieces of a line into the slots of a word, in whatever order they stand.
+/// Assigns the pieces of a line, in any order, to the slots of a word. Large because each kind of
+/// slot has its own member.
 class Filling {
 public:
-  Filling(const Pieces& pieces, const Elsewhere& elsewhere)
+  Filling(const Pieces& pieces, const SurroundingText& elsewhere)
       : pieces_(pieces), elsewhere_(elsewhere), used_(pieces.size()) {}
 
   bool is_used(std::size_t at) const { return used_[at]; }
   void use(std::size_t at) { used_[at] = true; }
-  /// Whether nothing was put in that nobody wrote.
+  /// True if everything filled in was written in the line.
   bool is_sure() const { return sure_; }
 
-  /// The values behind a word, as its slots have them; nothing where one lacks. The word itself may
-  /// stand at `subject`.
+  /// Returns the values of a word in the order of its slots; nothing if one is missing. The word
+  /// itself may be at `subject`.
   std::optional<std::string> fill(const Slots& slots, std::size_t subject);
 
-  std::string take_times(); ///< ` 3 times`, ` 1 to 6 times`; empty without
-  std::string take_count(); ///< the same of a number alone
-  std::string take_name();  ///< of an error; empty without
+  std::string take_times(); ///< ` 3 times`, ` 1 to 6 times`; empty if not given
+  std::string take_count(); ///< the same for a number without a word
+  std::string take_name();  ///< of an error; empty if not given
 
-  /// Takes all that says when; false where several do.
+  /// Takes everything that says when; false if that is more than one time.
   bool take_when(std::optional<SaidWhen>& when, std::string& lasts);
 
-  /// `at 2s `, as a stimulus begins; empty without.
+  /// `at 2s `, the start of a stimulus; empty if not given.
   std::string take_moment(const Slots& slots);
 
-  /// Whether nothing was lost: what is left says nothing, or says again what `word` does.
+  /// True if nothing is lost: what is left has no meaning, or repeats `word`.
   bool is_empty(std::string_view word) const;
 
 private:
   static constexpr std::size_t none = SIZE_MAX;
 
-  /// The word that says what a piece is for: `by` of `by 5`; null without.
+  /// The word that says what a piece is for: `by` in `by 5`; null if there is none.
   const Piece* front(std::size_t at) const;
   bool has_front(std::size_t at, std::string_view meanings) const;
   bool is_free(std::size_t at) const;
@@ -91,10 +93,10 @@ private:
   std::optional<std::string> seeds();
 
   Pieces pieces_;
-  const Elsewhere& elsewhere_;
+  const SurroundingText& elsewhere_;
   std::vector<bool> used_;
   std::size_t subject_ = none;
-  std::size_t by_ = none; ///< the tolerance of a place
+  std::size_t by_ = none; ///< tolerance of a place
   bool sure_ = true;
 };
 

@@ -1,9 +1,8 @@
 #include "testing/text/pattern.h"
 
-// PCRE2: its options for ECMAScript are documented, it counts its steps, and it never recurses on
-// the stack of the caller. std::regex does neither and takes exponential time; RE2 knows no `(?=`
-// and no
-// `\1`, which ECMAScript has.
+// PCRE2 documents its options for ECMAScript, counts its steps, and never recurses on the caller's
+// stack. std::regex can take exponential time and recurses; RE2 lacks `(?=` and `\1`, which
+// ECMAScript has.
 #define PCRE2_CODE_UNIT_WIDTH 8
 #include <pcre2.h>
 
@@ -13,7 +12,7 @@
 namespace orb::testing {
 namespace {
 
-// A search that takes longer gives up: some milliseconds.
+// Gives up after some milliseconds.
 constexpr std::uint32_t most_steps = 100'000;
 constexpr std::uint32_t most_heap_kib = 1024;
 constexpr std::uint32_t deepest_parentheses = 50;
@@ -56,7 +55,7 @@ tl::expected<Pattern, Pattern::Problem> Pattern::compile(std::string_view text) 
   Owned<pcre2_code> code(
       pcre2_compile(units(text), text.size(), like_ecmascript, &error, &at, limits.get()));
   if (!code) {
-    std::array<PCRE2_UCHAR, 256> words{}; // its messages are shorter
+    std::array<PCRE2_UCHAR, 256> words{}; // PCRE2's messages are shorter
     pcre2_get_error_message(error, words.data(), words.size());
     return tl::unexpected(Problem{at, reinterpret_cast<const char*>(words.data())});
   }

@@ -8,13 +8,13 @@
 
 namespace orb::testing {
 
-/// A regular expression in the syntax of ECMAScript, searched for in lines. The steps of a search
-/// are counted and bounded, so that no pattern and no line takes long; the bound is the same on
-/// every machine. May be used by several threads at once.
+/// A regular expression in ECMAScript syntax, searched for in lines. The steps of a search are
+/// bounded, so no pattern takes long on any line; the bound is the same on every machine.
+/// Thread-safe.
 class Pattern {
 public:
   struct Problem {
-    std::size_t at = 0; ///< byte of the pattern
+    std::size_t at = 0; ///< byte offset in the pattern
     std::string message;
   };
 

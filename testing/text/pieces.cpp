@@ -20,7 +20,7 @@ using repair::Tokens;
 
 constexpr Unit percent{"%", Measure::Percent, 1};
 
-/// A word of test files as its table writes it; empty for others.
+/// A test-file word as its table spells it; empty for other words.
 std::string_view own_word(std::string_view word) {
   static const auto words = [] {
     auto all = operand_words();
@@ -90,7 +90,7 @@ private:
     return true;
   }
 
-  /// From one slash to the last one: the words between are of another language.
+  /// From the first slash to the last one: the words between are a regular expression.
   bool pattern() {
     if (!line_[at_].is("/") || (at_ > 0 && !line_[at_ - 1].is_word() && !line_[at_ - 1].is("(")))
       return false;
@@ -106,7 +106,7 @@ private:
     return true;
   }
 
-  /// The unit that stands at `at`, which is moved behind it.
+  /// Reads the unit at `at` and moves `at` past it.
   const Unit* unit(std::size_t& at) const {
     if (at >= line_.size())
       return nullptr;
@@ -128,7 +128,7 @@ private:
     return hours;
   }
 
-  /// The number, with its sign and unit, that stands at `at`, which is moved behind it.
+  /// Reads the number at `at`, with its sign and unit, and moves `at` past it.
   std::optional<Amount> number(std::size_t& at) const {
     const bool signed_ =
         (sees(at, "-") || sees(at, "+")) && is_number(at + 1) && !line_[at + 1].gap;
@@ -142,7 +142,7 @@ private:
     return amount;
   }
 
-  /// Behind what stands between the two numbers of a span; 0 where nothing does.
+  /// The index after the word or sign that joins the two numbers of a span; 0 if there is none.
   std::size_t behind_joint(std::size_t at) const {
     if (sees(at, "..") || sees(at, "...") || sees(at, "~"))
       return at + 1;
@@ -164,7 +164,7 @@ private:
     return std::find(all.begin(), all.end(), meaning) != all.end();
   }
 
-  /// `x` or `y` at a place; '\0' without.
+  /// `x` or `y` before a coordinate; '\0' if there is none.
   char axis_at(std::size_t at) const {
     if (!is_word(at))
       return '\0';
@@ -256,7 +256,7 @@ private:
       piece.meanings = meanings_of(token.text);
     const bool called = sees(at_ + 1, "(") || (at_ > 0 && line_[at_ - 1].is("."));
     if (piece.meanings.empty() && called && repair::parts_of(token.text).size() > 1)
-      piece.meanings = {""}; // `toHaveBeenCalledWith`: the speech of a framework
+      piece.meanings = {""}; // `toHaveBeenCalledWith`: framework jargon without a meaning here
     for (const auto meaning : piece.meanings) {
       constexpr std::string_view times = " times";
       if (!meaning.ends_with(times))

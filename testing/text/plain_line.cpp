@@ -25,7 +25,7 @@ Token text(std::string said) {
   return {Token::Kind::Text, std::move(said), true};
 }
 
-/// Puts tokens in the place of `count` others.
+/// Replaces `count` tokens with others.
 void replace(Tokens& line, std::size_t at, std::size_t count, Tokens by) {
   if (!by.empty() && at < line.size())
     by[0].gap = line[at].gap;
@@ -36,7 +36,7 @@ void replace(Tokens& line, std::size_t at, std::size_t count, Tokens by) {
 
 void drop_objects(Tokens& line) {
   if (!line.empty() && holds("ball program with course target firmware", line[0].text))
-    return; // names have points, too
+    return; // file names contain points, too
   for (std::size_t i = 0; i + 2 < line.size(); ++i) {
     if (const auto end = file_end(line, i); end > i) {
       i = end - 1;
@@ -102,7 +102,8 @@ void unquote(Tokens& line) {
   }
 }
 
-/// Whether a text goes on with what no text says: `within 9s`, `and color green`, `3 times`.
+/// True if the rest continues an expectation after a text: `within 9s`, `and color green`, `3
+/// times`.
 bool goes_on(const Tokens& rest) {
   const auto pieces = pieces_of(rest);
   using Kind = Piece::Kind;
@@ -127,7 +128,7 @@ void close_text(Tokens& line) {
   auto whole = repair::tokens_of(said, Language::Test);
   const auto& before = line[line.size() - 2];
   const bool is_quoted = says_print(before) || before.is("~") || line[0].is("test");
-  if (!is_quoted && !whole.empty() && whole[0].is_word()) { // the quote of Logo: `color "red`
+  if (!is_quoted && !whole.empty() && whole[0].is_word()) { // Logo's quote: `color "red`
     line.pop_back();
     whole[0].gap = true;
     return repair::append(line, whole);

@@ -14,7 +14,8 @@ void FileReader::read_file(Cursor& cursor, const Slot& slot, std::optional<Named
 
 Named FileReader::named(const SlotValue& value) {
   const bool is_sign = value.text == "=" || value.text == ":";
-  return {is_sign ? "" : value.text, value.span}; // what follows is unexpected, and that is said
+  // what follows is unexpected, and a finding says so
+  return {is_sign ? "" : value.text, value.span};
 }
 
 void FileReader::read_target(Cursor& cursor, const SlotValue& value) {

@@ -2,8 +2,8 @@
 
 #include "base/texts.h"
 
-/// What is said about test files: `file_texts::UnknownExpectation(word)`. What `orb test` says of
-/// runs is in testing/texts.h.
+/// Texts of findings about test files: `file_texts::UnknownExpectation(word)`. Those of `orb test`
+/// about runs are in testing/texts.h.
 namespace orb::testing::file_texts {
 
 using namespace orb::texts;

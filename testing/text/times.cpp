@@ -24,7 +24,7 @@ bool FileReader::is_times(Cursor& cursor) {
   return ahead.peek() == "times" || ahead.peek() == "to";
 }
 
-void FileReader::read_times(Cursor& cursor, Expectation& one, Said& said) {
+void FileReader::read_times(Cursor& cursor, Expectation& one, GivenSpans& said) {
   const auto from = cursor.offset();
   const auto count = [&] { return static_cast<std::uint64_t>(cursor.read(slot::count).most); };
   one.times.least = one.times.most = count();
@@ -39,7 +39,7 @@ void FileReader::read_times(Cursor& cursor, Expectation& one, Said& said) {
                    file_texts::SmallerFirst());
 }
 
-void FileReader::read_when(Cursor& cursor, Expectation& one, Said& said) {
+void FileReader::read_when(Cursor& cursor, Expectation& one, GivenSpans& said) {
   const auto from = cursor.offset();
   const auto* const row = find_word<WordInfo>(when_words, cursor.word());
   const auto value = cursor.read(row->slots[0]);
@@ -51,7 +51,7 @@ void FileReader::read_when(Cursor& cursor, Expectation& one, Said& said) {
   said.when = cursor.span_from(from);
 }
 
-void FileReader::read_joined(Cursor& cursor, Expectation& one, const Said& said) {
+void FileReader::read_joined(Cursor& cursor, Expectation& one, const GivenSpans& said) {
   const auto span = cursor.peek_span();
   cursor.word();
   if (said.when.size() > 0 || one.lasts > Duration{})
@@ -87,7 +87,7 @@ void FileReader::read_lasts(Cursor& cursor, Expectation& one) {
   one.lasts = time;
 }
 
-void FileReader::read_order(Cursor& cursor, Expectation& one, Said& said) {
+void FileReader::read_order(Cursor& cursor, Expectation& one, GivenSpans& said) {
   const auto from = cursor.offset();
   const bool is_after = cursor.word() == info(JoinWord::After).word;
   one.order = is_after ? Order::After : Order::Before;
@@ -117,7 +117,7 @@ void FileReader::read_order(Cursor& cursor, Expectation& one, Said& said) {
 }
 
 void FileReader::finish(Cursor& cursor, Expectation& one, Span span, std::uint32_t line) {
-  Said said;
+  GivenSpans said;
   while (!cursor.failed() && !cursor.at_end()) {
     const auto word = cursor.peek();
     if (said.order.size() > 0)
@@ -147,7 +147,7 @@ void FileReader::finish(Cursor& cursor, Expectation& one, Span span, std::uint32
     current().expectations.push_back(std::move(one));
 }
 
-void FileReader::check_order(Cursor& cursor, const Expectation& one, const Said& said) {
+void FileReader::check_order(Cursor& cursor, const Expectation& one, const GivenSpans& said) {
   if (one.order == Order::Free)
     return;
   const auto& row = info(one.word);
@@ -175,7 +175,8 @@ void FileReader::left_over(Cursor& cursor, const Expectation& one) {
                                          : file_texts::WriteLike(usage(row.word, row.slots))));
 }
 
-void FileReader::check_when(Cursor& cursor, const Expectation& one, const Said& said, Span first) {
+void FileReader::check_when(Cursor& cursor, const Expectation& one, const GivenSpans& said,
+                            Span first) {
   using Of = When::Kind;
   const auto& row = info(one.word);
   const auto wrong = [&](Span span, Message message, Message help) {

@@ -10,15 +10,14 @@
 #include <string_view>
 #include <vector>
 
-// The words of test files. The rows, and what their columns mean, are in
-// testing/text/vocabulary.def.
+// The words of test files. testing/text/vocabulary.def has the rows and describes their columns.
 
 namespace orb::testing {
 
-/// Where a line of a test file may stand.
+/// Where a line of a test file may appear.
 enum class Stands : std::uint8_t { Head, Anywhere, InTest };
 
-/// What begins a line.
+/// The words that begin a line.
 enum class LineWord : std::uint8_t {
 #define ORB_TEST_LINE(name, ...) name,
 #include "testing/text/vocabulary.def"
@@ -28,7 +27,7 @@ enum class LineWord : std::uint8_t {
 /// The units of lengths in test files.
 inline constexpr std::array length_units{unit::cm, unit::mm, unit::m};
 
-/// What stands behind those words.
+/// The slots of these words.
 namespace slot {
 using namespace orb::slot;
 
@@ -65,7 +64,7 @@ inline constexpr Slot zone = word(Kind::Zone, "ZONE", file_texts::ZoneName);
 // clang-format on
 } // namespace slot
 
-/// What a row of each table has.
+/// The columns shared by all tables.
 struct WordInfo {
   std::string_view word;
   Slots slots;
@@ -93,15 +92,15 @@ enum class Word : std::uint8_t {
 
 /// How an expectation relates to time.
 enum class Kind : std::uint8_t {
-  State,  ///< true or not at each moment
+  State,  ///< true or false at each moment
   Stay,   ///< true at every moment
   Event,  ///< happens
-  Output, ///< all that is printed
-  End,    ///< the end itself
-  Final,  ///< known when the run is over
+  Output, ///< everything printed
+  End,    ///< the end of the run
+  Final,  ///< known only after the run
 };
 
-/// Whether an expectation has an opposite.
+/// Tells if `never` may precede an expectation.
 enum class Never : std::uint8_t { No, Yes };
 
 struct ExpectationInfo : WordInfo {
@@ -116,7 +115,7 @@ inline constexpr auto expectations = std::to_array<ExpectationInfo>({
 #undef ORB_EXPECTATION
 });
 
-/// What says when.
+/// The words that say when.
 enum class WhenWord : std::uint8_t {
 #define ORB_TEST_WHEN(name, ...) name,
 #include "testing/text/vocabulary.def"
@@ -129,7 +128,7 @@ inline constexpr auto when_words = std::to_array<WordInfo>({
 #undef ORB_TEST_WHEN
 });
 
-/// What joins several of them.
+/// The words that join expectations.
 enum class JoinWord : std::uint8_t {
 #define ORB_TEST_JOIN(name, ...) name,
 #include "testing/text/vocabulary.def"
@@ -142,7 +141,7 @@ inline constexpr auto join_words = std::to_array<WordInfo>({
 #undef ORB_TEST_JOIN
 });
 
-/// The words that stand in front of values: `by`, `points`.
+/// The words that precede values: `by`, `points`.
 std::vector<std::string_view> operand_words();
 
 constexpr const LineInfo& info(LineWord word) {

@@ -20,7 +20,7 @@ std::optional<Verdict> verdict_called(std::string_view word) {
   return std::nullopt;
 }
 
-/// Reads members of objects; remembers whether one was missing or of another kind.
+/// Reads members of objects; remembers if one was missing or had another type.
 class ResultsReader {
 public:
   bool good() const { return good_; }
@@ -42,7 +42,7 @@ public:
     const auto& found = member(json, name, Value::value_t::string);
     return found.is_string() ? found.get<std::string>() : std::string();
   }
-  /// A text that is no member.
+  /// Reads a value that must be a text.
   std::string is_text(const Value& json) {
     good_ = good_ && json.is_string();
     return json.is_string() ? json.get<std::string>() : std::string();
@@ -97,7 +97,7 @@ bool same_head(const GroupResult& a, const GroupResult& b) {
          a.program == b.program && a.first == b.first && a.count == b.count;
 }
 
-/// Which shards are missing, or how many runs where that cannot be told.
+/// Names the missing shards, or the number of missing runs if the shards are unknown.
 std::string missing(const Results& joined, std::uint64_t runs) {
   const auto there = static_cast<std::uint64_t>(joined.shards.size());
   if (joined.shards.empty())

@@ -10,18 +10,17 @@
 
 namespace orb::testing {
 
-/// Results as a file holds them.
+/// The results in one file.
 struct Part {
   std::string name;
   Results results;
 };
 
-/// Reads what render_json() wrote. Fails with code 3 where `text` is something else.
+/// Reads what render_json() wrote. Fails with code 3 for other texts.
 tl::expected<Part, Failure> read_results(std::string name, std::string_view text);
 
-/// Joins the shards of one command, in any order. Fails with code 2 where they are not parts of the
-/// same, where runs are there twice, or where some are missing. The whole is what one machine would
-/// have had.
+/// Merges the shards of one command, in any order. Fails with code 2 if they belong to different
+/// commands, or if runs are duplicated or missing. The result equals that of a single machine.
 tl::expected<Results, Failure> merge(std::vector<Part> parts);
 
 } // namespace orb::testing

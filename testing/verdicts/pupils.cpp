@@ -32,10 +32,10 @@ p{margin:0;font-size:6mm}ul{list-style:none;margin:0;padding:0;font-size:5mm}.si
 @media (max-width:60rem){section{height:auto}}
 )css";
 
-// Room for them on a sheet, under a long name.
+// Fits on a sheet below a long name.
 constexpr std::size_t most_on_sheet = 8;
 
-/// A drawing as the source of an image: the page needs no file beside it.
+/// A drawing as a data URL, so that the page needs no other file.
 std::string inside(std::string_view svg) {
   std::string out = "data:image/svg+xml,";
   for (const char c : svg)
@@ -71,7 +71,7 @@ std::string pupil_page(std::string_view name, const Table::Row& row,
   auto out = head(name, page_style, speech) +
              fmt::format("<h1>{}</h1>\n<p class=\"points\">{}</p>\n", escape_markup(name),
                          say(texts::PointsOf(row.points, row.points_of)));
-  std::string told; // of a program that cannot run every test says the same
+  std::string told; // a program that cannot run fails every test with the same words
   for (const auto* cell : row.cells) {
     if (cell == nullptr || cell->cases.empty())
       continue;

@@ -8,22 +8,22 @@
 #include <string>
 #include <string_view>
 
-// Pages that a teacher hands back: one for each pupil, and certificates to print.
+// Pages for a teacher to hand back: one for each pupil, and printable certificates.
 
 namespace orb::testing {
 
-/// What is shown of one test of a pupil.
+/// What is shown of one of a pupil's tests.
 struct Shown {
-  std::string picture; ///< of its first run that failed, else of its first: SVG
-  std::string replay;  ///< the page that plays it back; empty where there is none
+  std::string picture; ///< SVG of its first failed run, or else of its first run
+  std::string replay;  ///< page that plays it back; empty if there is none
 };
 
-/// A page with all results of a program, its pictures inside: it can be handed on alone. Names of
-/// replays count from the folder of the report, and the page is in another one there.
+/// A self-contained page with all results of a program, including pictures. Replays are relative to
+/// the folder of the report; the page is in a subfolder.
 std::string pupil_page(std::string_view name, const Table::Row& row,
                        const std::map<const GroupResult*, Shown>& shown, const Speech& speech);
 
-/// A sheet of paper for each name.
+/// A printable sheet for each name.
 std::string certificates(const std::vector<std::string>& names, const Table& table,
                          const Speech& speech);
 

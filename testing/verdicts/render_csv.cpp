@@ -10,11 +10,11 @@
 namespace orb::testing {
 namespace {
 
-// Without it spreadsheets take the bytes for another encoding than UTF-8.
+// Without it, spreadsheets do not read the bytes as UTF-8.
 constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
 
-/// A field that holds whatever a file may be called. Spreadsheets compute what begins with one of
-/// these signs, unless an apostrophe stands before it.
+/// Escapes a field. Spreadsheets evaluate text that begins with one of these signs, unless an
+/// apostrophe precedes it.
 std::string field(std::string_view text) {
   auto out = to_valid_utf8(text);
   if (!out.empty() && std::string_view("=+-@\t\r").find(out.front()) != std::string_view::npos)
@@ -32,7 +32,7 @@ std::string points(const GroupResult* cell) {
   return std::to_string(cell->verdict() == Verdict::Passed ? cell->points : 0);
 }
 
-/// Why a program could not be run, in a line.
+/// Why a program could not be run, on one line.
 std::string problem(const Table::Row& row) {
   for (const auto* cell : row.cells)
     if (cell != nullptr)

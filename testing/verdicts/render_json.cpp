@@ -36,7 +36,7 @@ Json case_json(const CaseResult& one, const Say& say) {
   return json;
 }
 
-/// A test without its cases, and open for them.
+/// Opens the object of a test, before its cases.
 std::string group_head(const GroupResult& group) {
   Json json;
   json["file"] = group.file;

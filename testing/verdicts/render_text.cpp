@@ -10,11 +10,11 @@
 namespace orb::testing {
 namespace {
 
-// A table that is wider has numbers for its tests, and a list of them below.
+// Characters. A wider table numbers its tests and lists them below.
 constexpr std::size_t widest_table = 100;
 constexpr std::size_t longest_seeds = 60;
 
-/// Each line of `text` after `before`.
+/// Puts `before` in front of each line.
 std::string indented(std::string_view text, std::string_view before) {
   std::string out;
   while (!text.empty()) {
@@ -30,7 +30,7 @@ std::string padded(std::string_view text, std::size_t width) {
   return std::string(text) + std::string(width > taken ? width - taken : 0, ' ');
 }
 
-/// Words of a language, all as wide as the widest.
+/// Pads words of a language to the width of the widest.
 template <std::size_t N>
 std::array<std::string, N> aligned(const std::array<Message, N>& words, const Say& say) {
   std::array<std::string, N> said;
@@ -44,7 +44,7 @@ std::array<std::string, N> aligned(const std::array<Message, N>& words, const Sa
   return said;
 }
 
-/// `passed` and its sisters as people find them at a glance.
+/// The word of a verdict, made to stand out.
 std::string verdict_words(Verdict verdict, Style style, const Say& say) {
   const auto words = aligned<3>({texts::Ok(), texts::LoudFail(), texts::LoudError()}, say);
   return style.paint(verdict == Verdict::Passed ? Role::Good : Role::Error,
@@ -68,7 +68,7 @@ std::string details(const GroupResult& group, const CaseResult& one, Style style
   return out;
 }
 
-/// What is said after the name of a test: which program, how many of its runs, which seeds.
+/// What follows the name of a test: the program, the number of runs, the seeds.
 std::string about(const GroupResult& group, bool with_program, const Say& say) {
   std::string out = with_program ? fmt::format(", {}", shown_name(group.program)) : std::string();
   const auto failed = static_cast<std::uint64_t>(
@@ -135,7 +135,7 @@ std::string draw(const Table& table, Style style, const Say& say) {
   return out;
 }
 
-/// Who handed in nothing.
+/// Names those who handed in nothing.
 std::string missing_words(const Results& results, const Say& say) {
   auto text = say(texts::WithoutProgram()) + " ";
   for (std::size_t i = 0; i < results.missing.size(); ++i)

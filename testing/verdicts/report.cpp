@@ -21,7 +21,7 @@ const std::string_view report_mark = "<!doctype html><!-- a report of orb test -
 
 namespace {
 
-// A page that shows more helps nobody, and a replay takes some hundred kilobytes.
+// More would not be looked at, and a replay takes some hundred kilobytes.
 constexpr std::size_t most_pictures = 500;
 constexpr std::size_t most_replays = 100;
 
@@ -75,11 +75,11 @@ Message runs(std::uint64_t n) {
   return counted(n, texts::OneRun, texts::Runs);
 }
 
-/// How a program did in all of its tests.
+/// The results of a program in all its tests.
 struct Pupil {
-  std::string picture; ///< of its first run that failed, else of its first
-  std::string page;    ///< what a click on it leads to
-  std::string own;     ///< the page to hand back
+  std::string picture; ///< of its first failed run, or else of its first run
+  std::string page;    ///< target of the picture's link
+  std::string own;     ///< page to hand back
 };
 
 class Report {
@@ -121,10 +121,10 @@ public:
 
 private:
   std::string say(const Message& message) const { return escape_markup(speech_.say(message)); }
-  /// What somebody wrote, of which a lesson has a translation.
+  /// Translates a title, for which a lesson may have a translation.
   std::string say_title(const std::string& title) const { return say(Message::as_is(title)); }
 
-  /// What was tested: a program, or all those of a room.
+  /// What was tested: a program, or all programs of a room.
   std::string subject(const Group& group, const GroupResult& told) const {
     return group.room.empty() ? told.program : speech_.say(texts::Room(group.room.size()));
   }
@@ -134,7 +134,7 @@ private:
     return known == names_.end() ? row.program : known->second;
   }
 
-  /// A page for each pupil, and certificates for those who passed.
+  /// Writes a page for each pupil, and certificates for those who passed.
   bool write_pupils(const Table& table) {
     std::vector<std::string> passed;
     for (std::size_t i = 0; i < table.rows.size(); ++i) {
@@ -154,7 +154,7 @@ private:
            pages_.write("certificates.html", certificates(passed, table, speech_));
   }
 
-  /// A pupil in each field, who has the fewest points first; below it who did what.
+  /// Draws one field per pupil, fewest points first, and below it the results.
   std::string draw(const Table& table) const {
     if (table.rows.empty())
       return {};
@@ -193,7 +193,7 @@ private:
     });
   }
 
-  /// A result that leads to where it is told.
+  /// A result that links to its details.
   std::string mark(const GroupResult* cell, std::string_view element, std::string_view text) const {
     if (cell == nullptr || cell->cases.empty())
       return fmt::format("<{0}></{0}>", element);
@@ -227,7 +227,7 @@ private:
         "</span></h2>\n",
         told.first, to_string(verdict), say(called(verdict)), say_title(told.test),
         escape_markup(subject(suite_.groups[index], told)), escape_markup(told.file), told.line);
-    // Each run of a program that cannot run would say the same.
+    // All runs of a program that cannot run fail with the same words.
     const auto* failure = first_failure(told);
     if (failure != nullptr && failure->verdict == Verdict::Error) {
       body += once_.is_new(told, *failure)
@@ -316,7 +316,7 @@ private:
   Pages& pages_;
   const std::map<std::string, std::string>& names_;
   const Speech& speech_;
-  std::map<std::string, Pupil> pupils_; ///< by their programs
+  std::map<std::string, Pupil> pupils_; ///< by program
   std::map<const GroupResult*, Shown> shown_;
   bool certified_ = false;
   ToldOnce once_;

@@ -19,7 +19,7 @@ Table whole_table(const Results& results) {
   Table table;
   std::map<Key, std::size_t> columns;
   std::map<std::string, std::size_t> rows;
-  std::map<std::string, std::string> file_of; // of a test's name, where one file has it
+  std::map<std::string, std::string> file_of; // by name of the test, if only one file has it
   for (const auto& group : results.groups) {
     const auto [known, fresh] = file_of.try_emplace(group.test, group.file);
     if (!fresh && known->second != group.file)
@@ -52,7 +52,7 @@ Table whole_table(const Results& results) {
 Table table_of(const Results& results) {
   auto table = whole_table(results);
   if (table.rows.size() < 2 ||
-      results.groups.size() <= table.tests.size()) // each test has one program
+      results.groups.size() <= table.tests.size()) // each test has a single program
     table.rows.clear();
   return table;
 }

@@ -1,8 +1,8 @@
-// Parse and lint of realistic programs beside LuaJIT's load() of Lua chunks of the same size and
-// the same doing. Both read from memory and throw the result away.
+// Compares parse and lint of realistic programs with LuaJIT's load() of equivalent Lua chunks of
+// the same size. Both read from memory and discard the result.
 
 #include "compiler/lint/lint.h"
-#include "compiler/text/parse.h"
+#include "compiler/text/parse_basic.h"
 #include "tests/bench/realistic.h"
 
 #include <benchmark/benchmark.h>

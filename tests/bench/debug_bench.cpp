@@ -1,4 +1,4 @@
-// What it costs to go back in a run of an hour, in time and in memory.
+// Measures the time and memory of going back in a run of an hour.
 
 #include "debug/timeline.h"
 
@@ -27,7 +27,7 @@ public:
   bool wants_lines() const override { return false; }
 };
 
-/// Lines all the time, motion and colours: a program that keeps a ball busy.
+/// A program that keeps a ball busy: it never waits, drives and changes colours.
 constexpr auto program = "10 X = X + 1\n"
                          "20 if X % 3000 > 0 then goto 10\n"
                          "30 goroll X / 3000 % 4 * 90,100,1\n"
@@ -35,7 +35,7 @@ constexpr auto program = "10 X = X + 1\n"
                          "50 if xpos > 200 then Y = Y + 1\n"
                          "60 goto 10\n";
 
-/// A run that has gone on for an hour of robot time.
+/// A run after an hour of robot time.
 struct Hour {
   std::vector<run::Input> inputs;
   run::Options options;
@@ -45,7 +45,7 @@ struct Hour {
   Hour() {
     structured::NoFiles files;
     inputs.push_back(*run::read_input("hour.bas", program, "", {}, files));
-    timeline = *debug::Timeline::start(inputs, options, silence);
+    timeline = *debug::Timeline::start(inputs, options, silence, nullptr);
     Nothing nothing;
     timeline->forward(nothing, 1h, [] { return false; });
   }
@@ -62,7 +62,7 @@ void an_hour_forward(benchmark::State& state) {
     benchmark::DoNotOptimize(Hour());
 }
 
-/// From a place where nobody has gone back yet.
+/// Starts where no step back has been made yet, so that no copy is near.
 void first_step_back(benchmark::State& state) {
   Hour hour;
   EveryStep every;

@@ -1,5 +1,5 @@
-// From a keystroke to the findings: the language server takes a change of one character in a
-// program of 4 KB and answers with what it found, JSON to JSON, in this process.
+// Measures the time from a keystroke to the findings: the language server receives a change of one
+// character in a program of 4 KB and answers, JSON to JSON, in this process.
 
 #include "editor/lsp/language_server.h"
 
@@ -53,7 +53,7 @@ std::string test_file() {
   return text;
 }
 
-/// 200 lines, every 16th of them broken in one of the ways that beginners break them.
+/// 200 lines; every 16th has a beginner's mistake.
 std::string broken(const std::string& ending) {
   constexpr int lines = 200;
   std::string text;

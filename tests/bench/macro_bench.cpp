@@ -1,4 +1,4 @@
-// Macros: assembling, disassembling, linting and executing.
+// Measures assembling, disassembling, linting and running macros.
 
 #include "assembler/assemble.h"
 #include "assembler/disassemble.h"
@@ -11,7 +11,7 @@ namespace {
 
 using namespace orb;
 
-/// A stream macro of ordinary lines, about `size` bytes of source.
+/// Returns a stream macro of ordinary commands, about `size` bytes of source.
 Source source_of(std::size_t size) {
   std::string text = ".macro bench id=254 flags=motor_control\n.const pace = 100ms\n";
   while (text.size() < size)
@@ -48,7 +48,7 @@ void disassemble(benchmark::State& state) {
 }
 BENCHMARK(disassemble);
 
-/// Takes what it is asked and does nothing.
+/// Ignores all requests.
 class Idle : public vm::MacroHost {
 public:
   std::uint64_t commands = 0;
@@ -64,7 +64,7 @@ public:
   bool connected() const override { return false; }
 };
 
-/// A macro that goes round forever: rolls, colours, markers and a delay of `delay` ms.
+/// Returns a macro that loops forever: rolls, colours, markers and a delay of `delay` ms.
 void execute(benchmark::State& state) {
   const auto source =
       Source("bench.macro", ".macro bench id=40\nloop_start 255\nrgb 1, 2, 3\nroll 128, 90\n"

@@ -1,4 +1,4 @@
-// How fast packets are found in a stream, beside a loop that adds the same bytes up.
+// Measures how fast packets are found in a stream, compared with a loop that sums the same bytes.
 
 #include "protocol/decoder.h"
 
@@ -28,7 +28,7 @@ void finish(benchmark::State& state, const Bytes& bytes) {
   state.SetBytesProcessed(static_cast<std::int64_t>(state.iterations() * bytes.size()));
 }
 
-/// The measure: what any checksum has to do at least.
+/// The baseline: the least that any checksum has to do.
 void SumBytes(benchmark::State& state) {
   const auto bytes = stream();
   for (auto _ : state) {
@@ -56,7 +56,7 @@ void DecodePackets(benchmark::State& state) {
 }
 BENCHMARK(DecodePackets);
 
-/// As a serial link delivers them: in pieces that end anywhere.
+/// In pieces that end anywhere, as a serial link delivers them.
 void DecodePieces(benchmark::State& state) {
   const auto bytes = stream();
   constexpr std::size_t piece = 1000;

@@ -6,8 +6,8 @@
 
 namespace orb::bench {
 
-/// A program as people write them for the ball: a main loop with sensors, colours and driving, and
-/// subroutines. About `bytes` long, without a finding of the linter.
+/// Returns a program as people write them for the ball: a main loop with sensors, colours and
+/// driving, and subroutines. About `bytes` long; the linter finds nothing in it.
 inline std::string basic_program(std::size_t bytes) {
   std::string out = "10 basflg 1\n20 C = 0\n30 R = 0\n40 H = 0\n50 B = 0\n";
   std::string tail;
@@ -38,7 +38,7 @@ inline std::string basic_program(std::size_t bytes) {
   return out + fmt::format("{} goto 100\n", main) + tail;
 }
 
-/// The same doing in Lua, as near as the languages allow, of about the same size.
+/// Returns an equivalent Lua chunk of about the same size.
 inline std::string lua_chunk(std::size_t bytes) {
   std::string out = "local C, R, H, B = 0, 0, 0, 0\nbasflg(1)\n";
   std::string tail;

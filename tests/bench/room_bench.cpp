@@ -1,6 +1,6 @@
-// How long 200 balls take for a minute: each alone, and all in one room, where contacts are looked
-// for; and how long the looking takes by itself, with balls that cost nothing. On an open floor and
-// between four walls; the second argument is the size of the room in metres.
+// Measures a minute of 200 balls: each alone, and all in one room, where contacts are searched for;
+// and the search by itself, with balls that cost nothing. The arguments are walls (0 or 1) and the
+// size of the room in metres.
 
 #include "base/random.h"
 #include "run/room.h"
@@ -22,7 +22,7 @@ using namespace orb;
 
 constexpr int count = 200;
 
-/// Drives anywhere, looks where it is, and goes on.
+/// Drives at random, reads its position, and repeats.
 constexpr std::string_view program =
     "10 basflg 1\n20 goroll rnd 360 - 1,30 + rnd 70,1\n30 delay 300 + rnd 1500\n"
     "40 A = xpos * xpos + ypos * ypos\n50 goto 20\n";
@@ -66,7 +66,7 @@ struct Balls {
   std::vector<run::RoomBall> balls;
 };
 
-/// A ball without a body: it goes straight on, and turns back at walls and at others.
+/// A ball without a body: it moves straight ahead, and turns back at walls and other balls.
 class Hiker final : public vm::Resident {
 public:
   Hiker(vm::Point place, vm::Point velocity, const vm::Point* corner)
@@ -93,7 +93,7 @@ private:
       speed = -speed;
   }
   vm::Mover mover_;
-  const vm::Point* corner_; ///< opposite of 0,0; null: there are no walls
+  const vm::Point* corner_; ///< the corner opposite 0,0; null: no walls
   Duration now_{};
 };
 

@@ -1,5 +1,5 @@
-// How fast `orb ball` answers on loopback. ORB names the program; it is the one beside this
-// benchmark where ORB is not set.
+// Measures how fast `orb ball` answers on loopback. ORB names the program; by default the one
+// beside this benchmark.
 
 #include "protocol/packet.h"
 
@@ -62,7 +62,7 @@ public:
   Server(const Server&) = delete;
   Server& operator=(const Server&) = delete;
 
-  /// Seconds of processor time so far.
+  /// Returns the processor time so far, in seconds.
   double cpu_s() const {
     std::FILE* file = std::fopen(("/proc/" + std::to_string(process_) + "/stat").c_str(), "r");
     if (file == nullptr)
@@ -93,7 +93,7 @@ int connect_to(int port) {
   return ::connect(fd, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0 ? fd : -1;
 }
 
-/// Pings with 64 under way: every answer lets the next ping go.
+/// Keeps 64 pings in flight: every answer triggers the next ping.
 void Pings64InFlight(benchmark::State& state) {
   constexpr std::size_t window = 64;
   constexpr std::size_t answer_size = 6;
@@ -125,7 +125,7 @@ void Pings64InFlight(benchmark::State& state) {
 }
 BENCHMARK(Pings64InFlight)->UseRealTime()->MinTime(2);
 
-/// 200 balls, 20 commands a second each, for five seconds: how much of a core that takes.
+/// Measures the share of a core that 200 balls take at 20 commands a second each, for five seconds.
 void TwoHundredBalls(benchmark::State& state) {
   constexpr int balls = 200;
   constexpr int per_second = 20;

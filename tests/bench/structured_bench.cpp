@@ -1,6 +1,6 @@
-// Structured programs to lines of the robot: all of it, from the text to the checked image, and for
-// comparison only reading and checking. The program is the examples' own kind: subs, loops,
-// choices; without comments. The examples themselves are compiled, too, when this runs at the root.
+// Measures compiling structured programs: from the text to the checked image, and for comparison
+// reading and checking alone. The generated program resembles the examples (subs, loops, choices),
+// without comments. At the root of the repository the examples are compiled, too.
 
 #include "structured/compile.h"
 #include "structured/meaning/check.h"
@@ -19,7 +19,7 @@ namespace {
 
 using namespace orb::structured;
 
-/// A program of about so many lines that an area holds when there are 200.
+/// Returns a program of about `lines` lines; 200 of them fill an area.
 std::string program(std::int64_t lines) {
   std::string text = "' a patrol\nconst side = 400ms\narray visits[12]\ncourse = 0\n\n";
   std::string subs;
@@ -57,7 +57,7 @@ void compile_program(benchmark::State& state) {
   finish(state, text);
 }
 
-/// The structured programs below a folder, in the order of their names.
+/// Returns the structured programs below a folder, by name.
 std::vector<std::string> programs_of(const std::filesystem::path& folder) {
   std::vector<std::filesystem::path> paths;
   if (std::filesystem::is_directory(folder))

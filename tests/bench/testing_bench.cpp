@@ -1,5 +1,5 @@
-// How long `orb test` takes: 10,000 runs of a 30 s program, on two threads. What bounds it is shown
-// by leaving things out: the judges that look at every step, the driving, the lines.
+// Measures `orb test`: 10,000 runs of a 30 s program, on two threads. Variants without the judges
+// that look at every step, without driving, or with few lines show which part costs how much.
 
 #include "testing/run_suite.h"
 
@@ -14,7 +14,7 @@ using namespace orb;
 constexpr std::uint64_t runs = 10'000;
 constexpr unsigned threads = 2;
 
-/// 15 times a second at `speed` and a second of rest.
+/// 15 times: a second at `speed`, then a second of rest.
 std::string program(int speed) {
   return fmt::format("10 for I = 1 to 15\n20 goroll rnd 359,{},1\n30 delay 1000\n40 goroll 0,0,0\n"
                      "50 delay 1000\n60 print \"lap\", I\n70 next I\n",
@@ -67,7 +67,7 @@ void hardly_runs(benchmark::State& state) {
   run(state, "10 print \"lap\", 15\n", of_prints);
 }
 
-// Once each: they take seconds. Processor time is of both threads.
+// One iteration each, as they take seconds. Processor time covers both threads.
 BENCHMARK(drives_judged_at_each_step)
     ->Iterations(1)
     ->Unit(benchmark::kSecond)

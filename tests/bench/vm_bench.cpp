@@ -1,6 +1,6 @@
-// The machine against LuaJIT, interpreted and compiled, and gcc -O2 on the same algorithms:
-// tests/bench/kernels/NAME.bas, .lua and .c.
-// Prints the table of docs/performance.md. Run it through ./dev bench.
+// Compares the machine with LuaJIT, interpreted and compiled, and gcc -O2 on the same algorithms:
+// tests/bench/kernels/NAME.bas, .lua and .c. Prints the table of docs/inside/performance.md. Run it
+// through ./dev bench.
 
 #include "compiler/load.h"
 #include "tests/bench/realistic.h"
@@ -25,9 +25,9 @@
 namespace {
 
 using namespace orb;
-constexpr int rounds = 7; // the best of so many counts: what disturbs only ever adds
+constexpr int rounds = 7; // the best of several runs, as disturbances only add time
 
-/// Processor time in seconds, as luajit's os.clock() counts it: other programs do not disturb it.
+/// Returns processor time in seconds, as luajit's os.clock() does: other programs do not count.
 double processor_time() {
   return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
 }
@@ -43,7 +43,7 @@ std::string read_all(const std::string& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-/// Keeps what a program prints.
+/// Records the prints of a program.
 class Printed final : public vm::Observer {
 public:
   void on_event(Instant, const vm::Event& event) override {
@@ -61,7 +61,7 @@ struct Measured {
   std::string printed;
 };
 
-/// Runs a whole ball, as `orb run` does, and times it from the start of the program to its end.
+/// Runs a program on a whole ball, as `orb run` does, and times it from start to end.
 Measured run_basic(const std::string& text, vm::Native native) {
   Printed printed;
   vm::BallOptions options;
@@ -78,7 +78,7 @@ Measured run_basic(const std::string& text, vm::Native native) {
   return {since(start), ball.machine().lines(), printed.text};
 }
 
-/// Runs a program that prints its result and then the seconds that it took.
+/// Runs a command that prints its result, then the seconds that it took.
 Measured run_command(const std::string& command) {
   const std::unique_ptr<FILE, int (*)(FILE*)> pipe(popen(command.c_str(), "r"), pclose);
   if (!pipe)
@@ -93,14 +93,14 @@ Measured run_command(const std::string& command) {
   return {std::strtod(out.c_str() + split, nullptr), 0, out.substr(0, split + 1)};
 }
 
-/// With the compiler of LuaJIT or, by `-joff`, in its interpreter.
+/// Runs a kernel in LuaJIT, or with `-joff` in its interpreter.
 Measured run_lua(const std::string& option, const std::string& path) {
   return run_command(fmt::format("luajit {} -e \"local t = os.clock(); dofile('{}.lua'); "
                                  "print(string.format('%.9f', os.clock() - t))\"",
                                  option, path));
 }
 
-/// As gcc -O2 has it, built where the returned path says.
+/// Compiles a kernel with gcc -O2 and returns the path of the program.
 std::string build_c(const std::string& path, const std::string& option) {
   const auto program = (std::filesystem::temp_directory_path() / "orb-bench").string() + option;
   const auto timed = std::filesystem::path(path).replace_filename("timed.c").string();
@@ -116,7 +116,7 @@ struct Kernel {
   const char* what;
 };
 
-/// Times by contestant, the best of so many rounds, in which all take turns.
+/// Times by contestant: the best of several rounds in which all take turns.
 struct Times {
   double lua = 1e9;
   double lua_compiled = 1e9;
@@ -219,7 +219,7 @@ std::size_t heap_bytes() {
   return info.uordblks + info.hblkhd;
 }
 
-/// A program that fills its area.
+/// Returns a program that fills its area.
 std::string full_program() {
   std::string text;
   for (int line = 1;; ++line) {
@@ -230,7 +230,7 @@ std::string full_program() {
   }
 }
 
-/// What a program costs once before it is machine code.
+/// Measures the one-time cost of compiling a program to machine code.
 void compile_times() {
   const auto measure = [](const char* what, const bytecode::Chunk& chunk) {
     double best = 1e9;

@@ -1,9 +1,9 @@
-// Compiles a structured program as if one pass of the optimiser did nothing, and prints its image:
-// tests/bench/examples says what each is worth. The compiler knows nothing of it: the linker leads
-// the calls of a pass here first (CMakeLists.txt reads the symbols below), where its files are
+// Compiles a structured program without one pass of the optimiser and prints its image;
+// tests/bench/examples compares the results. The compiler has no switch for this: the linker wraps
+// the calls of a pass (CMakeLists.txt reads the symbols below), which requires that its files are
 // compiled one by one.
-//   orb_without PASS FILE   with all of them where no pass has that name
-//   orb_without             prints their names
+//   orb_without PASS FILE   omits the pass; an unknown name omits none
+//   orb_without             prints the names of the passes
 
 #include "structured/compile.h"
 #include "structured/optimise/arms.h"

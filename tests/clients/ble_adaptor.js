@@ -1,5 +1,5 @@
-// A link for the vendor's library over Bluetooth LE: what its own adaptor does through noble, which wants the radio
-// to itself, is done here through node-ble, which asks BlueZ over D-Bus.
+// A Bluetooth LE link for the vendor's library. Its own adaptor uses noble, which needs the radio for itself; this one
+// uses node-ble, which asks BlueZ over D-Bus.
 "use strict";
 
 const EventEmitter = require("events");

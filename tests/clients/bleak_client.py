@@ -1,7 +1,7 @@
-"""What the Python libraries for robots over Bluetooth LE do, with Bleak: find the robot by its name,
-say the words that open it, subscribe, then send packets in pieces and wait for answers.
+"""Drives a robot over Bluetooth LE as Python libraries do, with Bleak: finds it by name, writes the
+greeting, subscribes, then sends packets in pieces and waits for answers.
 
-bleak_client.py NAME: ends with 0 when the robot did all of it."""
+bleak_client.py NAME: exits with 0 if the robot did all of it."""
 
 import asyncio
 import sys
@@ -37,7 +37,7 @@ class Robot:
         await self.client.start_notify(ANSWERS, self.on_notification)
 
     def answer(self):
-        """The data of the answer to the last command, once all of it is there."""
+        """Returns the data of the answer to the last command, once it is complete."""
         at = 0
         while len(self.bytes) - at >= 5:
             kind, length = self.bytes[at + 1], self.bytes[at + 4]

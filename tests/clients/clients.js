@@ -1,5 +1,5 @@
-// Lets two independent client libraries, unmodified, drive `orb ball` over TCP and a pty, one of them
-// over Bluetooth LE too.
+// Lets two independent, unmodified client libraries drive `orb ball` over TCP and a pty, one of them also over
+// Bluetooth LE.
 //
 //   node clients.js ORB FOLDER   (FOLDER holds node_modules with sphero, sphero-pwn and node-ble)
 "use strict";
@@ -13,7 +13,7 @@ const BleAdaptor = require("./ble_adaptor.js");
 
 const [orb, folder] = process.argv.slice(2).map((name) => path.resolve(name));
 
-// Their native dependencies are old; ours stand in.
+// Replaces their outdated native dependencies.
 const load = Module._load;
 Module._load = function (name, ...rest) {
   if (name === "serialport") return require("./serialport.js");
@@ -41,7 +41,7 @@ const next = (emitter, event, ms = 3000, wanted = () => true) =>
     });
   }));
 
-// A ball that somebody pushes from the front twice a second.
+// A ball that is pushed from the front twice a second.
 async function serve(use) {
   const scratch = fs.mkdtempSync(path.join(folder, "run-"));
   const script = path.join(scratch, "pushes.stimulus");
@@ -76,7 +76,7 @@ async function serve(use) {
   }
 }
 
-// A ball behind a Bluetooth LE of its own.
+// A ball with its own Bluetooth LE.
 async function serveBle(use) {
   const ball = spawn(orb, ["ball", "--bluez"], { stdio: ["ignore", "pipe", "inherit"] });
   try {
@@ -188,8 +188,8 @@ async function drivePwn(robot) {
 
 async function main() {
   let failed = 0;
-  // Where the machine is so busy that two packets wait for one read, the vendor's library loses the
-  // second: it is given another try, as its users would.
+    // On a busy machine two packets can arrive in one read, and the vendor's library then loses the
+  // second. Try again, as its users would.
   const run = async (name, job) => {
     for (let left = 2; ; --left) {
       try {

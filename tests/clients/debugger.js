@@ -1,4 +1,4 @@
-// Lets the client library that debug adapters of VS Code are tested with, unmodified, drive `orb dap`.
+// Lets the unmodified test client of VS Code's debug adapters drive `orb dap`.
 //
 //   node debugger.js ORB FOLDER   (FOLDER holds node_modules with @vscode/debugadapter-testsupport)
 "use strict";

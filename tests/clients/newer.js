@@ -1,5 +1,5 @@
-// Lets a client library of others, unmodified, drive the virtual robots of packets v2: each shines, tells its version
-// and its battery, drives, says where it goes, and stops. Its radio, noble, is ours: a TCP link to `orb ball`.
+// Lets an unmodified client library drive the virtual robots with packets v2: each lights up, reports version and
+// battery, drives, reports its place, and stops. A TCP link to `orb ball` replaces the radio library noble.
 //
 //   node newer.js ORB FOLDER   (FOLDER holds node_modules with spherov2.js)
 "use strict";
@@ -14,7 +14,7 @@ const path = require("path");
 const [orb, folder] = process.argv.slice(2).map((name) => path.resolve(name));
 const toy = (file) => require(path.join(folder, "node_modules", "spherov2.js", "dist", "toys", file));
 const sleep = (ms) => new Promise((resolve) => setTimeout(resolve, ms));
-console.log = () => {}; // it says much
+console.log = () => {}; // the library prints a lot
 
 const uuid = (begin) => `${begin}574f4f2053706865726f2121`;
 const most = 20; // bytes of a piece

@@ -1,4 +1,4 @@
-// Stands in for the old native `serialport` package under unmodified clients: the part of its
+// Replaces the old native `serialport` package for unmodified clients: the part of its
 // interface that they use, over a pty (/dev/pts/4, a symlink …) or TCP (/dev/tcp/HOST/PORT).
 "use strict";
 

@@ -14,16 +14,16 @@ namespace {
 
 constexpr std::string_view fence_mark = "```";
 
-/// A fence, or a `<!-- run: … -->` as one that holds a single command.
+/// A fence; a `<!-- run: … -->` counts as a fence with a single command.
 struct Block {
-  std::string word;      ///< what the fence says that it holds
-  std::string name;      ///< of the file that it is, where it is one
+  std::string word;      ///< the language named by the fence
+  std::string name;      ///< the file's name, if it is a file
   bool skipped = false;  ///< `<!-- not run: REASON -->`
   std::size_t begin = 0; ///< index of its first line
   std::vector<std::string> lines;
 };
 
-/// What a listing is saved as, and the command that finds no error in it.
+/// The file name of a listing, and the command that must find no error in it.
 struct Language {
   std::string_view word;
   std::string_view check;
@@ -37,7 +37,7 @@ constexpr auto languages = std::to_array<Language>(
 constexpr auto quiet_words = std::to_array<std::string_view>(
     {"text", "json", "toml", "svg", "cpp", "cmake", "python", "lua", "yaml"});
 
-/// What stands between `<!-- KEY: ` and ` -->`; empty where the line is something else.
+/// Returns the text between `<!-- KEY: ` and ` -->`; empty for other lines.
 std::string comment(std::string_view line, std::string_view key) {
   const auto head = fmt::format("<!-- {}: ", key);
   constexpr std::string_view tail = " -->";
@@ -151,9 +151,9 @@ std::string with_outputs(std::string_view text, const std::vector<Command>& ran)
 }
 
 std::vector<Command> run(const Page& page, const std::string& folder, const std::string& logs) {
-  // A command in the background is given until its first words, as a reader would; what still runs
-  // at the end of the page is stopped, and waited for: it removes files of its own in the folder,
-  // which is removed next.
+  // Waits for the first output of a background command, as a reader would. Stops what still runs at
+  // the end of the page and waits for it: it removes files of its own from the folder, which is
+  // removed next.
   auto script = fmt::format(
       "cd '{}' && exec </dev/null\ntrap 'kill $(jobs -p) 2>/dev/null; wait' EXIT\n", folder);
   for (std::size_t i = 0; i < page.commands.size(); ++i) {

@@ -5,28 +5,26 @@
 #include <string_view>
 #include <vector>
 
-/// A page of the documentation as something to be run: what its fences hold.
+/// A page of the documentation as commands, files and listings.
 ///
-///   ```sh            each line is a command, which must succeed; what it prints is not shown
-///   ```console       `$ COMMAND`, then what it prints, which is compared
+///   ```sh            each line is a command that must succeed; its output is ignored
+///   ```console       `$ COMMAND`, then its output, which is compared
 ///   ```basic         a listing (also orb, macro, stimulus, test): `orb check` finds no error in it
-///   ```text          nothing to run (also json, toml, yaml, cpp, cmake, python)
+///   ```text          not run (also json, toml, yaml, cpp, cmake, python)
 ///
-/// A line right above a fence, or on its own, says what a reader need not see:
+/// A comment above a fence, or on its own, holds what a reader need not see:
 ///
-///   <!-- file: NAME -->         the fence below is a file of that name for the commands of the
-///   page
-///   <!-- not run: REASON -->    the fence below cannot be run: it needs a ball, never ends,
-///   installs
-///   <!-- run: COMMAND -->       prepares what the next commands take for granted
+///   <!-- file: NAME -->         the fence below is a file of that name for the page's commands
+///   <!-- not run: REASON -->    the fence below cannot be run: it needs a ball, never ends …
+///   <!-- run: COMMAND -->       prepares what the next commands rely on
 ///
 /// The commands of a page run in one bash, in a fresh folder; `$ROOT` is the checkout.
 namespace docs {
 
 struct Command {
-  std::size_t line = 0; ///< of the page, from 1
+  std::size_t line = 0; ///< in the page, from 1
   std::string text;
-  bool shown = false; ///< what it prints stands on the page
+  bool shown = false; ///< the page shows its output
   std::string output; ///< as shown, standard error included
   int exit = 0;
 };
@@ -43,18 +41,18 @@ struct Problem {
 
 struct Page {
   std::vector<File> files;
-  std::vector<Command> commands; ///< in the order of the page, the checks of listings among them
-  std::vector<Problem> problems; ///< a fence that does not say what it holds
+  std::vector<Command> commands; ///< in the order of the page, including the checks of listings
+  std::vector<Problem> problems; ///< a fence without a language
 };
 
 Page read(std::string_view text);
 
-/// The page with the outputs of its `console` fences replaced by those of `ran`, whose commands are
-/// the page's own.
+/// Returns the page with the outputs of its `console` fences replaced by those of `ran`, its own
+/// commands.
 std::string with_outputs(std::string_view text, const std::vector<Command>& ran);
 
-/// Runs the page's commands in `folder`, where its files lie already; what they print passes
-/// through files in `logs`.
+/// Runs the page's commands in `folder`, which already holds its files. Their output goes through
+/// files in `logs`.
 std::vector<Command> run(const Page& page, const std::string& folder, const std::string& logs);
 
 } // namespace docs

@@ -1,8 +1,8 @@
-// The committed tree-sitter parsers against the programs that orb itself takes: no error in any.
+// The committed tree-sitter parsers must parse every program that orb accepts without an error.
 
 #include "assembler/lint/lint.h"
 #include "compiler/check.h"
-#include "compiler/text/parse.h"
+#include "compiler/text/parse_basic.h"
 #include "structured/compile.h"
 #include "structured/lift/lift.h"
 #include "tests/golden/files.h"
@@ -37,7 +37,7 @@ const TSLanguage* language_of(const std::string& name) {
   return name.ends_with(".macro") ? tree_sitter_orbmacro() : nullptr;
 }
 
-/// The tree of a text in words, where it holds an error; else nothing.
+/// Returns the tree of a text as text if it contains an error; otherwise nothing.
 std::string error_in(const std::string& name, const std::string& text) {
   const std::unique_ptr<TSParser, decltype(&ts_parser_delete)> parser(ts_parser_new(),
                                                                       &ts_parser_delete);
@@ -54,7 +54,7 @@ std::string error_in(const std::string& name, const std::string& text) {
   return words.get();
 }
 
-/// The files that stand beside each other: a folder, or those of a transcript.
+/// Files that can include each other: those of a folder or of a transcript.
 class Neighbours final : public structured::Files {
 public:
   std::map<std::string, std::string> texts;
@@ -67,13 +67,13 @@ public:
 
 bool is_accepted(const std::string& name, const std::string& text, Neighbours& files) {
   if (name.ends_with(".bas"))
-    return compiler::parse(text).faults.empty(); // it is read, whatever is wrong with its values
+    return compiler::parse(text).faults.empty(); // wrong values are no errors of the grammar
   if (name.ends_with(".orb"))
     return !structured::compile(name, name, text, {}, files).has_errors();
   return !any_error(assembler::check(Source(name, text)));
 }
 
-/// Looks at all of them; how many of them orb accepts.
+/// Checks all of them; returns how many orb accepts.
 std::size_t expect_no_errors(Neighbours& files, const std::string& where) {
   std::size_t accepted = 0;
   for (const auto& [name, text] : files.texts) {

@@ -6,7 +6,7 @@
 #include "spec/robots.h"
 #include "structured/text/files.h"
 #include "vm/ball_transport.h"
-#include "vm/bluetooth.h"
+#include "vm/common/bluetooth.h"
 
 #include <memory>
 #include <string>
@@ -15,7 +15,7 @@
 
 namespace orb::test {
 
-/// A virtual robot behind a link that does to packets what a plan says, in virtual time.
+/// A virtual robot behind a link with the faults of a plan, in virtual time.
 class FarRobot {
 public:
   FarRobot(spec::Robot which, const protocol::FaultPlan& plan, Duration round_trip,
@@ -40,7 +40,7 @@ public:
 
   bool drives() const { return ball->body().is_driven(); }
 
-  /// Nobody says anything any more.
+  /// The link falls silent.
   void live_on(Duration time) {
     constexpr Duration glance = 10ms;
     for (const auto end = ball->now() + time; ball->now() < end;) {
@@ -56,10 +56,10 @@ private:
   std::unique_ptr<vm::RobotV2> v2_;
 
 public:
-  std::unique_ptr<protocol::Transport> link; ///< dies before what it leads to
+  std::unique_ptr<protocol::Transport> link; ///< destroyed before the far end
 };
 
-/// A program of orbBasic as `orb run` reads it.
+/// Reads an orbBasic program as `orb run` does.
 inline std::vector<run::Input> program_of(std::string_view text) {
   structured::NoFiles files;
   std::vector<run::Input> inputs;

@@ -12,11 +12,11 @@
 
 namespace orb::test {
 
-/// A robot's GATT above any transport, without BlueZ and D-Bus and in the time of that transport:
-/// what BlueZ would say of it, with its faults.
+/// A robot's GATT on top of any transport, with the faults of Bluetooth LE: it replaces BlueZ and
+/// D-Bus, and runs in the time of the transport.
 class GattBall final : public uploader::Gatt {
 public:
-  /// `interval` passes from a piece to its receipt.
+  /// `interval` is the time from a piece to its acknowledgement.
   GattBall(std::unique_ptr<protocol::Transport> ball, const protocol::BleFaultPlan& plan,
            Duration interval)
       : ball_(std::move(ball)), plan_(plan), interval_(interval), random_{plan.seed} {}
@@ -30,7 +30,7 @@ public:
       stale_ = std::exchange(connected_, true);
     if (strikes(step))
       return tl::unexpected(lost());
-    // What a link does not give at once it does not give later either.
+    // A refusal comes at once: patience would not help.
     if (balks(step) || (stale_ && step == protocol::BleStep::Services))
       return tl::unexpected(refused());
     if (step == protocol::BleStep::Services && now() + plan_.late > patience.deadline) {
@@ -48,8 +48,8 @@ public:
   }
 
   bool held(spec::BleCharacteristic) const override {
-    return false;
-  } // it shows when it is subscribed to
+    return false; // the failure shows at the subscription
+  }
 
   std::string address() const override { return "68:86:E7:00:00:01"; }
 
@@ -98,7 +98,7 @@ public:
 
   void rest(const uploader::Patience& patience) override { pass(patience.deadline - now()); }
 
-  /// A piece at a time, as notifications come.
+  /// Returns one piece, as one notification.
   tl::expected<Bytes, uploader::BleError> read(Instant deadline) override {
     while (pieces_.empty()) {
       if (!connected_)
@@ -117,7 +117,7 @@ public:
 
   std::size_t longest_piece = 0;
   std::string advertised = "SK-0001";
-  std::string greeting; ///< the words that were written, with a | after each
+  std::string greeting; ///< the written passwords, each followed by |
   int steps_taken = 0;
 
 private:
@@ -143,7 +143,7 @@ private:
     return once || plan_.drop == step;
   }
 
-  /// Time goes by; what the ball says meanwhile waits.
+  /// Advances the time; output of the ball is queued.
   void pass(Duration time) {
     const auto until = now() + time;
     while (now() < until) {
@@ -173,7 +173,7 @@ private:
   Random random_;
   Bytes pieces_;
   bool connected_ = false;
-  bool stale_ = false; ///< the link is that of an earlier try
+  bool stale_ = false; ///< the link belongs to an earlier attempt
   bool subscribed_ = false;
 };
 

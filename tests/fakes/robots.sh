@@ -1,6 +1,6 @@
-# For transcripts: robots over Bluetooth LE that `orb ball` serves, and waits that have an end.
+# For transcripts: virtual robots over Bluetooth LE, and waits with a limit.
 
-# until_true COMMAND...: comes back when the command succeeds.
+# until_true COMMAND...: waits until the command succeeds.
 until_true() {
   local try
   for ((try = 0; try < 2000; ++try)); do
@@ -11,7 +11,7 @@ until_true() {
   exit 1
 }
 
-# serve [PLAN [OPTION]]: a ball behind a Bluetooth LE of its own, which all further commands find; its port is $url.
+# serve [PLAN [OPTION]]: serves a ball behind its own Bluetooth LE, which all later commands use; its port is $url.
 serve() {
   local bus
   rm -f at

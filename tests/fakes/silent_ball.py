@@ -1,6 +1,6 @@
-"""silent_ball.py COUNT...: a ball that answers so many packets on a TCP port and is then silent.
+"""silent_ball.py COUNT...: a ball on a TCP port that falls silent after this many answers.
 
-It prints the port, then serves one client per COUNT, and ends. Of each client it says when it left the first packet
+Prints the port, then serves one client per COUNT, and exits. For each client it prints when it first left a packet
 unanswered.
 """
 

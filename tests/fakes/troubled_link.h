@@ -11,11 +11,11 @@
 #include <optional>
 #include <vector>
 
-// Links to a robot that do one thing to it each: fall silent, sleep, say busy, interrupt.
+// Links to a robot with one fault each: silence, sleep, busy answers, interruption.
 
 namespace orb::test {
 
-/// A packet of either kind, one that drives, or a sample.
+/// A packet v1 or v2 that drives, or that carries a sample.
 struct Seen {
   bool is_roll = false;
   bool is_raw = false;
@@ -28,7 +28,7 @@ struct Seen {
   std::optional<protocol::PacketV2> v2;
 };
 
-/// What the bytes of one direction hold, packet by packet.
+/// Decodes the packets of one direction.
 class Watcher {
 public:
   explicit Watcher(protocol::Direction direction) : v1_(direction) {}
@@ -99,7 +99,7 @@ private:
   protocol::DecoderV2 v2_;
 };
 
-/// Hands everything on.
+/// Passes everything on.
 class PassingLink : public protocol::Transport {
 public:
   explicit PassingLink(protocol::Transport& inner) : inner_(inner) {}
@@ -115,7 +115,7 @@ protected:
   protocol::Transport& inner_;
 };
 
-/// The first command that switches stabilization off is lost.
+/// Loses the first command that switches stabilization off.
 class LosingLink final : public PassingLink {
 public:
   using PassingLink::PassingLink;
@@ -131,7 +131,7 @@ private:
   Watcher told_{protocol::Direction::ToBall};
 };
 
-/// Somebody presses Ctrl-C at an instant.
+/// Interrupts at an instant, as Ctrl-C does.
 class InterruptedLink final : public PassingLink {
 public:
   InterruptedLink(protocol::Transport& inner, Instant at) : PassingLink(inner), at_(at) {}
@@ -147,7 +147,7 @@ private:
   Instant at_;
 };
 
-/// From an instant on no sample comes; all else does.
+/// Drops all samples from an instant on, and nothing else.
 class MuteLink final : public PassingLink {
 public:
   MuteLink(protocol::Transport& inner, Instant at) : PassingLink(inner), at_(at) {}
@@ -172,7 +172,7 @@ public:
     return left;
   }
   std::optional<Instant> last_sample;
-  std::optional<Instant> stopped; ///< when a roll of speed 0 left after the last sample
+  std::optional<Instant> stopped; ///< when a roll with speed 0 was sent after the last sample
 
 private:
   Instant at_;
@@ -180,7 +180,7 @@ private:
   Watcher said_{protocol::Direction::FromBall};
 };
 
-/// The computer sleeps for a while: nobody reads, and what came meanwhile comes at once.
+/// Simulates a sleeping computer: nothing is read for a while, then everything arrives at once.
 class SleepingLink final : public PassingLink {
 public:
   SleepingLink(protocol::Transport& inner, Instant at, Duration length)
@@ -213,7 +213,7 @@ private:
   Watcher told_{protocol::Direction::ToBall};
 };
 
-/// The robot answers `busy` to raw motors and to rolls of that speed or more, and does nothing.
+/// Answers `busy` to raw motors and to rolls of at least that speed; the robot does not get them.
 class BusyLink final : public PassingLink {
 public:
   BusyLink(protocol::Transport& inner, int least_speed)
@@ -252,8 +252,8 @@ private:
   Bytes answers_;
 };
 
-/// Between what the robot says comes nonsense in whole packets: samples too short and too long,
-/// values without sense, answers to nothing, error codes that no table has.
+/// Inserts nonsense in valid packets: samples too short or too long, meaningless values, answers to
+/// no request, unknown error codes.
 class BabblingLink final : public PassingLink {
 public:
   BabblingLink(protocol::Transport& inner, std::uint64_t seed, const spec::RobotInfo& robot)
@@ -277,7 +277,7 @@ private:
     for (auto& byte : data)
       byte = static_cast<std::uint8_t>(draw(256));
     if (robot_.packets == spec::Packets::V1) {
-      // A frame of the right length is a sample, whatever is in it.
+      // A frame of the right length is a sample, whatever its content.
       data.resize(data.size() | 1U);
       return encode(protocol::Async{static_cast<std::uint8_t>(draw(12)), data});
     }
@@ -287,7 +287,7 @@ private:
     packet.cid = static_cast<std::uint8_t>(row.message);
     packet.seq = spec::v2_message_seq;
     if (row.message == spec::V2Message::ServiceSample)
-      data.resize(data.size() % 4 == 1 ? data.size() + 1 : data.size()); // else it is a sample
+      data.resize(data.size() % 4 == 1 ? data.size() + 1 : data.size()); // otherwise it is a sample
     else if (row.message == spec::V2Message::Sample && data.size() % 4 == 0)
       data.assign(data.size(), 0xFF); // not numbers
     if (draw(4) == 0) {

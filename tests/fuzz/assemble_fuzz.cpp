@@ -1,4 +1,4 @@
-// Any text is assembled, linted and timed, or explained.
+// Assembles, lints and times any text; errors are explained.
 
 #include "assembler/lint/lint.h"
 #include "assembler/timing.h"

@@ -1,5 +1,5 @@
-// The whole ball: any bytes at any time. It neither crashes nor hangs nor grows, and a ping is
-// answered once a half packet has timed out.
+// Feeds the whole ball any bytes at any time. It must not crash, hang or grow, and must answer a
+// ping once an incomplete packet has timed out.
 
 #include "compiler/load.h"
 #include "vm/ball.h"
@@ -27,7 +27,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   ball.advance_to(ball.now() + std::chrono::milliseconds{501});
   if (!ball.connected())
     ball.connect(); // it fell asleep
-  // Every ball answers a ping, in the bootloader too; programs may fill the wire for a while.
+  // Every ball answers a ping, even in the bootloader; programs may fill the wire for a while.
   ball.receive(encode(protocol::make_command(spec::ApiCommand::AbortOrbbasicProgram)));
   ball.receive(encode(protocol::make_command(spec::ApiCommand::AbortMacro)));
   ball.receive(encode(protocol::make_command(spec::ApiCommand::SetDataStreaming, Bytes(9))));

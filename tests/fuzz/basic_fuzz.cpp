@@ -1,9 +1,9 @@
-// Any bytes as orbBasic: checking, fixing, formatting, packing and loading must survive them.
+// Takes any bytes as orbBasic: checking, fixing, formatting, packing and loading must survive them.
 
 #include "compiler/check.h"
 #include "compiler/load.h"
 #include "compiler/text/image.h"
-#include "compiler/text/parse.h"
+#include "compiler/text/parse_basic.h"
 #include "compiler/text/print.h"
 
 #include <cstdint>
@@ -12,7 +12,7 @@
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace orb::compiler;
-  // Without a NUL behind it, as a user of the library may have it.
+  // Without a final NUL, as users of the library may pass it.
   const std::string_view text(reinterpret_cast<const char*>(data), size);
   static_cast<void>(check(text, {}));
   const auto formatted = format(parse(text));

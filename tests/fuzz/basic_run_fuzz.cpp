@@ -1,5 +1,5 @@
-// Any text that a ball can store: it is compiled, checked and run for a while, and the two engines
-// agree on what it prints.
+// Compiles, checks and briefly runs any text that a ball can store. Both engines must print the
+// same.
 
 #include "bytecode/chunk.h"
 #include "compiler/load.h"

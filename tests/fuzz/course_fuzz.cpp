@@ -1,4 +1,4 @@
-// Any text as a course: it is read, its zones are asked, and a ball drives among its walls.
+// Reads any text as a course, queries its zones and drives a ball among its walls.
 
 #include "report/course.h"
 #include "vm/ball.h"
@@ -13,7 +13,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   for (const auto& zone : reading.course.zones)
     if (zone.contains({1, 1}) && zone.distance_cm({1, 1}) != 0)
       __builtin_trap();
-  if (reading.course.walls.size() > 100) // the ball would take its time
+  if (reading.course.walls.size() > 100) // the ball would take too long
     return 0;
   vm::Ball ball({});
   ball.schedule(reading.course.stimuli());

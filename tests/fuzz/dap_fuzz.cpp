@@ -1,5 +1,5 @@
-// The debug adapter under any bytes: as a stream with headers, and as requests of an open session
-// whose program runs between them.
+// Feeds the debug adapter any bytes: as a stream with headers, and as requests of an open session
+// whose program runs in between.
 
 #include "editor/dap/debug_adapter.h"
 #include "editor/wire.h"
@@ -26,7 +26,7 @@ public:
   }
 };
 
-/// Lets the program go on for a little while.
+/// Lets the program run for a short while.
 void work(orb::editor::DebugAdapter& adapter) {
   int looks = 0;
   if (adapter.busy())
@@ -47,7 +47,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     event->is_error ? adapter.receive_garbage(event->text) : adapter.receive(event->text);
     work(adapter);
   }
-  while (!text.empty()) { // one message a line: most inputs have no header
+  while (!text.empty()) { // one message per line: most inputs have no header
     const auto end = text.find('\n');
     adapter.receive(text.substr(0, end));
     work(adapter);

@@ -1,5 +1,5 @@
-// Both v1 directions: whatever arrives, in whatever pieces, packets come out in order and nothing
-// is kept beyond one incomplete packet.
+// Decodes v1 bytes in both directions. Whatever arrives, in whatever pieces, packets come out in
+// order and at most one incomplete packet is kept.
 
 #include "protocol/describe.h"
 

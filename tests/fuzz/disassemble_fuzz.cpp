@@ -1,4 +1,4 @@
-// Any bytes disassemble to source that assembles to the same bytes, or say why not.
+// Disassembles any bytes. The source must assemble to the same bytes, or there is an error.
 
 #include "assembler/assemble.h"
 #include "assembler/disassemble.h"

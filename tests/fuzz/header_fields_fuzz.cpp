@@ -1,5 +1,5 @@
-// The lengths of bodies in headers of any bytes, and the messages that editors frame with them:
-// what is cut out does not depend on the pieces in which it comes.
+// Reads body lengths in headers of any bytes, and messages framed by them. The result must not
+// depend on how the stream is cut.
 
 #include "base/text/header_fields.h"
 #include "editor/wire.h"
@@ -10,7 +10,7 @@
 
 namespace {
 
-/// All that the reader finds, when `bytes` come in two pieces.
+/// Returns all that the reader finds if `bytes` arrive in two pieces.
 std::string read(std::string_view bytes, std::size_t cut) {
   orb::editor::MessageReader reader;
   std::string found;
@@ -26,14 +26,14 @@ std::string read(std::string_view bytes, std::size_t cut) {
 } // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  using Said = orb::BodyLength::Said;
+  using Found = orb::BodyLength::Found;
   const std::string_view text(reinterpret_cast<const char*>(data), size);
   const auto length = orb::body_length(text);
-  if (length.said != Said::Length && length.bytes != 0)
+  if (length.said != Found::Length && length.bytes != 0)
     std::abort();
   const auto again = orb::body_length("Content-Length: " + std::to_string(length.bytes) + "\r\n" +
                                       std::string(text));
-  const auto expected = length.said == Said::Nothing ? Said::Length : length.said;
+  const auto expected = length.said == Found::Nothing ? Found::Length : length.said;
   if (again.said != expected || again.bytes != length.bytes)
     std::abort();
   const auto whole = read(text, size);

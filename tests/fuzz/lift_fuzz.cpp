@@ -1,5 +1,5 @@
-// Any text as a numbered program: it is lifted or refused, and what is lifted compiles and is laid
-// out as it will stay.
+// Lifts any text as a numbered program, or refuses it. A lifted program must compile and keep its
+// layout when formatted.
 
 #include "compiler/check.h"
 #include "structured/compile.h"

@@ -1,5 +1,5 @@
-// Logs of any bytes: every line that counts is read or a stranger, and what was read comes back
-// from the recording that it makes.
+// Reads logs of any bytes. Every relevant line is either read or counted as a stranger, and what
+// was read survives a round trip through a recording.
 
 #include "protocol/log_text.h"
 #include "protocol/recording.h"

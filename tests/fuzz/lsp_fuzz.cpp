@@ -1,4 +1,4 @@
-// The language server under any bytes: as a stream with headers, and as messages of an open
+// Feeds the language server any bytes: as a stream with headers, and as messages of an open
 // session.
 
 #include "editor/lsp/language_server.h"
@@ -27,7 +27,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   reader.feed(text);
   while (const auto event = reader.next())
     event->is_error ? server.receive_garbage(event->text) : server.receive(event->text);
-  while (!text.empty()) { // one message a line: most inputs have no header
+  while (!text.empty()) { // one message per line: most inputs have no header
     const auto end = text.find('\n');
     server.receive(text.substr(0, end));
     text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);

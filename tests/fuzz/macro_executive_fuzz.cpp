@@ -1,4 +1,4 @@
-// Any bytes run as user, temporary and stream macro, and end in time or by an abort.
+// Runs any bytes as user, temporary and stream macros. They must end in time or by an abort.
 
 #include "vm/macros/macro_executive.h"
 
@@ -21,8 +21,8 @@ public:
 
 } // namespace
 
-// The first byte of each piece says what is done with the next bytes, so that the fuzzer can play a
-// whole session: save, run, stream, collide, abort.
+// The first byte of each piece selects what happens with the following bytes, so that the fuzzer
+// can play a whole session: save, run, stream, collide, abort.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   Anything host;
   vm::MacroExecutive executive(host);

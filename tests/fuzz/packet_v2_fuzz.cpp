@@ -1,4 +1,5 @@
-// The v2 decoder: every byte comes out exactly once, and a packet encodes to what it was read from.
+// Decodes v2 bytes: every byte comes out exactly once, and a packet encodes to the bytes it was
+// read from.
 
 #include "protocol/describe_v2.h"
 

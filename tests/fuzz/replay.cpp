@@ -1,5 +1,5 @@
-// The inputs that fuzzing has found, once more, where there is no libFuzzer: every file of the
-// folder that is named. Fails by dying, as the target does; the last line then names the input.
+// Replays inputs found by fuzzing without libFuzzer: every file of the given folder. Fails by
+// crashing, as the target does; the last line then names the input.
 
 #include <cstddef>
 #include <cstdint>

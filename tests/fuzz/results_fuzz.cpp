@@ -1,5 +1,5 @@
-// Any text as the results of a shard: it is refused, or joined with itself and alone, and told in
-// every format; what is read from the JSON form is written as the same bytes again.
+// Reads any text as the results of a shard: it is refused, or joined with itself and alone, and
+// printed in every format. What is read from JSON must be written as the same bytes.
 
 #include "base/bytes.h"
 #include "testing/verdicts/merge.h"

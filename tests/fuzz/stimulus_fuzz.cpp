@@ -1,4 +1,4 @@
-// Any text as a stimulus script: it is read, and what could be read is played.
+// Reads any text as a stimulus script and plays what could be read.
 
 #include "vm/ball.h"
 

@@ -1,5 +1,5 @@
-// Any text as a structured program: it compiles in bounded time, every fix makes a text again, and
-// what comes out is a program that the plain compiler has nothing against.
+// Compiles any text as a structured program in bounded time. Every fix gives a text again, and the
+// plain compiler accepts the output.
 
 #include "base/fixes.h"
 #include "compiler/check.h"

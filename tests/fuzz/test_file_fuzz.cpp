@@ -1,5 +1,5 @@
-// Any text as a test file: it is read, what it names is looked up among a few files that are there,
-// and what could be read is run for a moment and told in every format.
+// Reads any text as a test file, looks up what it names among a few files, runs what could be read
+// for a moment and prints it in every format.
 
 #include "testing/run_suite.h"
 #include "testing/verdicts/render.h"
@@ -31,14 +31,14 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   AFewFiles files;
   auto suite = testing::make_suite({{"fuzz.test", std::string(as_text({data, size}))}}, {}, files);
   if (!suite)
-    __builtin_trap(); // only a name that was asked for can be missing
+    __builtin_trap(); // only a name that was requested can be missing
   auto& file = suite->files.front().file;
   for (const auto& finding : file.diagnostics)
     if (finding.span.begin > finding.span.end || finding.span.end > size)
       __builtin_trap();
   if (suite->has_errors())
     return 0;
-  constexpr std::size_t most_walls = 100; // with more the ball would take its time
+  constexpr std::size_t most_walls = 100; // with more the ball would take too long
   constexpr std::size_t most_runs = 3;
   for (auto& test : file.tests)
     test.bound = std::min<Duration>(test.bound, 50ms);

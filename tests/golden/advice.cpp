@@ -18,21 +18,21 @@ namespace {
 
 std::size_t count = 0;
 
-constexpr std::size_t longest = 400; // of a line for people
+constexpr std::size_t longest = 400; // per line of output
 
-/// The lines that people read: no data.
+/// Returns the lines meant for people, without data.
 std::vector<std::string> lines_for_people(const std::string& output) {
   auto lines = files::lines(output);
   std::erase_if(lines, [](const std::string& line) { return line.size() > longest; });
   return lines;
 }
 
-/// A finding, as `orb check` prints it for people.
+/// A finding in the text output of `orb check`.
 struct Finding {
   std::string file;
   std::size_t line = 0;
   std::size_t column = 0;
-  std::size_t width = 0; ///< of what is marked
+  std::size_t width = 0; ///< of the marked text
   std::string severity;
   std::string rule;
   std::string message;
@@ -60,7 +60,7 @@ std::vector<Finding> findings_in(const std::string& output) {
                      {}});
       within = true;
     } else if (std::regex_match(line, note)) {
-      within = false; // what is marked there is another place
+      within = false; // the mark there belongs to another place
     } else if (within && all.back().width == 0 && std::regex_match(line, found, mark)) {
       all.back().width = static_cast<std::size_t>(found[1].length());
     } else if (within && all.back().help.empty() && line.starts_with(help)) {
@@ -70,7 +70,7 @@ std::vector<Finding> findings_in(const std::string& output) {
   return all;
 }
 
-/// What stands between backticks on one line.
+/// Returns the texts between backticks on one line.
 std::vector<std::string> quoted(const std::string& text) {
   std::vector<std::string> all;
   for (const auto& line : files::lines(text))
@@ -84,7 +84,7 @@ std::vector<std::string> quoted(const std::string& text) {
   return all;
 }
 
-/// `orb check --fix` names a command and an option; in `orb FILE` and `orb …` nothing can be tried.
+/// `orb check --fix` names a command and an option; `orb FILE` and `orb …` cannot be tried.
 std::optional<std::string> wrong_command(const std::string& text, const Run& run) {
   static std::map<std::string, Ran> helps;
   std::vector<std::string> words;
@@ -117,7 +117,7 @@ std::optional<std::string> wrong_command(const std::string& text, const Run& run
   return std::nullopt;
 }
 
-/// Whether a command is one of orb alone, which can be run again with something added.
+/// True if a command only calls orb, so that it can be run again with something added.
 bool is_simple(const std::string& command) {
   return command.starts_with("orb ") && command.find_first_of("|;&<>$*") == std::string::npos;
 }
@@ -128,7 +128,7 @@ fs::path copy_of(const fs::path& work, const files::Scratch& scratch) {
   return copy;
 }
 
-/// ``add `--input 20` ``: with it, the command does not say the same again.
+/// ``add `--input 20` ``: with it, the command must not repeat its advice.
 void try_options(const std::string& command, const Ran& ran, const fs::path& work, const Run& run,
                  std::vector<std::string>& wrong) {
   static const std::regex advice("^.*\\b(?:add|give|answer it with) `(--[^`]*)`.*$");
@@ -145,7 +145,7 @@ void try_options(const std::string& command, const Ran& ran, const fs::path& wor
   }
 }
 
-/// The lines that a help offers: alternatives, each of one line or several.
+/// Returns the lines that a help offers: alternatives of one line or more.
 struct Offer {
   std::size_t line;
   std::vector<std::vector<std::string>> choices;
@@ -174,7 +174,7 @@ std::optional<Offer> offer_of(const Finding& finding) {
   return offer;
 }
 
-/// How the text of an offer goes into its line.
+/// How an offer changes its line.
 enum class Place { Marked, Word, Line };
 
 std::string number_of(const std::string& line) {
@@ -183,8 +183,8 @@ std::string number_of(const std::string& line) {
   return std::regex_search(line, found, number) ? found.str() : std::string();
 }
 
-/// The text with the line that has the number of an offer, and without the lines that the help
-/// wants removed; nothing where the offer is not for another line.
+/// Returns the text with the offered line in place of the line with the same number, and without
+/// the lines that the help removes; nothing if the offer is for the finding's own line.
 std::optional<std::string> joined(const std::string& text, const Finding& finding,
                                   const std::string& offered) {
   static const std::regex range("remove lines (\\d+) to (\\d+)");
@@ -214,7 +214,7 @@ std::optional<std::string> joined(const std::string& text, const Finding& findin
   return all;
 }
 
-/// The text with an offer in it; nothing where that place does not take it.
+/// Returns the text with an offer inserted; nothing if it does not fit there.
 std::optional<std::string> with_offer(const std::string& text, const Finding& finding,
                                       std::size_t line, const std::vector<std::string>& offered,
                                       Place place) {
@@ -229,7 +229,7 @@ std::optional<std::string> with_offer(const std::string& text, const Finding& fi
       return std::nullopt;
     auto begin = finding.column - 1;
     auto end = std::min(begin + finding.width, old.size());
-    if (place == Place::Word) { // `id=20`, where the number is marked
+    if (place == Place::Word) { // `id=20` where only the number is marked
       begin = old.find_last_of(' ', begin) + 1;
       end = std::min(old.find(' ', end), old.size());
     }
@@ -257,7 +257,7 @@ std::optional<std::string> with_offer(const std::string& text, const Finding& fi
   return all;
 }
 
-/// Whether the lines that were offered are neither found again nor wrong in another way.
+/// True if the offered lines have neither the same finding nor a new error.
 bool is_good(const std::vector<Finding>& before, const std::vector<Finding>& after,
              const Finding& finding, std::size_t line, std::size_t lines) {
   const auto errors = [&](const std::vector<Finding>& all, std::size_t last) {
@@ -292,7 +292,7 @@ void try_line(const std::string& command, const std::vector<Finding>& all, const
         return one.rule == finding.rule && one.message == finding.message;
       });
     }
-    // A whole line most often replaces the line: what succeeds first saves the others.
+    // A whole line usually replaces the line: try that first.
     const bool is_line = choice[0].find(' ') != std::string::npos;
     for (const auto place : is_line ? std::array{Place::Line, Place::Marked, Place::Word}
                                     : std::array{Place::Marked, Place::Word, Place::Line}) {

@@ -6,7 +6,8 @@
 #include <string>
 #include <vector>
 
-/// What commands suggest, tried where they suggested it: nobody can follow advice that is refused.
+/// Follows the advice that commands give, in the folder where they gave it: advice that is refused
+/// is useless.
 namespace advice {
 
 struct Ran {
@@ -18,23 +19,23 @@ struct Ran {
 /// Runs a command in a folder.
 using Run = std::function<Ran(const std::string& command, const std::filesystem::path& folder)>;
 
-/// What is wrong with what a command suggested, a sentence each. The command ran in `work`, which
-/// stays as it is.
+/// Returns a sentence for each piece of advice that does not work. The command ran in `work`, which
+/// stays unchanged.
 ///
-/// - `orb COMMAND --option`: there are such a command and such an option.
-/// - ``add `--option value` ``: the command takes it, and does not ask for it again.
-/// - ``write `LINE` ``: in the place of the one that was found, or of the piece that is marked, it
-///   is not found again, and nothing else is wrong with it.
+/// - `orb COMMAND --option`: the command and the option must exist.
+/// - ``add `--option value` ``: the command must take it, and not ask for it again.
+/// - ``write `LINE` ``: in place of the line with the finding, or of the marked piece, it must have
+///   neither the same finding nor another error.
 std::vector<std::string> problems(const std::string& command, const Ran& ran,
                                   const std::filesystem::path& work, const Run& run);
 
-/// The same for a page, of which no command is the author.
+/// The same for a page.
 std::vector<std::string> problems_of_page(const std::string& text, const Run& run);
 
-/// The same for all that `--help` prints: what it quotes, and its examples.
+/// The same for everything `--help` prints: quoted commands and examples.
 std::vector<std::string> problems_of_help(const Run& run);
 
-/// How many suggestions have been tried.
+/// The number of suggestions tried so far.
 std::size_t tried();
 
 } // namespace advice

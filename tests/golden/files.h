@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-/// Files and folders of the runner of transcripts and pages.
+/// Files and folders for the runner of transcripts and pages.
 namespace files {
 
 inline std::string read(const std::filesystem::path& path) {
@@ -31,7 +31,7 @@ inline std::vector<std::string> lines(std::string_view text) {
   return lines;
 }
 
-/// How often that was.
+/// Returns the number of replacements.
 inline std::size_t replace_all(std::string& text, const std::string& from, const std::string& to) {
   std::size_t count = 0;
   for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size()) {
@@ -41,7 +41,7 @@ inline std::size_t replace_all(std::string& text, const std::string& from, const
   return count;
 }
 
-/// A folder of its own, removed at the end.
+/// A temporary folder, removed by the destructor.
 class Scratch {
 public:
   Scratch() {

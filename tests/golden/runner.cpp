@@ -9,15 +9,14 @@
 //   === bad.bas
 //   10 rgb 255,0,0
 //
-// A step is a line `$ COMMAND` (run by sh in a fresh folder that holds the input files), then the
-// expected stdout, then `[stderr]` and the expected stderr where there is any, then `[exit N]`
-// where it is not 0. `~` is an empty folder of the transcript's own. Output that does not end in a
-// line end is followed by a line `[no newline]`. Input files follow at the end: `=== NAME`, or `===
-// NAME hex` for bytes, or `=== NAME bare` for a text without its last line end. `--update` rewrites
-// the expectations: read the diff. `--pseudo` has findings said in the pseudo-locale, whose marks
-// are taken off again: each transcript must come back as it is, so that nothing that is translated
-// was cut, and the last line tells how many texts were. `--advice` compares nothing, but follows
-// what each command suggests, where it was suggested: tests/golden/advice.h.
+// A step is a line `$ COMMAND` (run by sh in a fresh folder that holds the input files), the
+// expected stdout, `[stderr]` and the expected stderr if there is any, and `[exit N]` unless it is
+// 0. `~` is an empty folder for each transcript. Output without a final line end is followed by a
+// line `[no newline]`. Input files come last: `=== NAME`, or `=== NAME hex` for bytes, or `=== NAME
+// bare` for a text without its last line end. `--update` rewrites the expectations: read the diff.
+// `--pseudo` prints findings in the pseudo-locale and removes its marks again: if a transcript then
+// differs, a translated text was cut; the last line counts the texts. `--advice` compares nothing,
+// but follows the advice of each command: tests/golden/advice.h.
 //
 // A file that ends in `.md` is a page of the documentation: tests/docs/page.h.
 
@@ -66,7 +65,7 @@ struct Transcript {
   std::vector<Input> inputs;
 };
 
-/// A line of output that looks like the runner's own marks is written with a backslash before it.
+/// True for lines of output that look like the runner's own marks: they get a backslash.
 bool needs_escape(const std::string& line) {
   return line.starts_with("$ ") || line.starts_with("[stderr]") || line.starts_with("[exit ") ||
          line.starts_with("[no newline]") || line.starts_with("=== ") || line.starts_with("\\");
@@ -134,19 +133,19 @@ std::string content_of(const Input& input) {
   return input.text;
 }
 
-/// Makes `folder` the place in which everything happens: the files lie in `work`, and a home of
-/// its own beside them is whatever `~` says, so that nobody's settings count and nothing stays.
+/// Creates `work` for the files in `folder`, and next to it an empty home, so that personal
+/// settings have no effect and nothing remains.
 fs::path settle(const fs::path& folder) {
   const auto home = folder / "home";
   const auto work = folder / "work";
   fs::create_directory(home);
   fs::create_directory(work);
-  fs::permissions(folder, fs::perms(0755)); // for transcripts in which root becomes somebody else
+  fs::permissions(folder, fs::perms(0755)); // for transcripts that drop root's privileges
   ::setenv("HOME", home.c_str(), 1);
   return work;
 }
 
-/// Output is compared without the names of folders that are new each time.
+/// Replaces the names of folders that differ in each run.
 void replace_folders(std::string& text, const fs::path& work) {
   files::replace_all(text, work.string(), "$PWD");
   files::replace_all(text, (work.parent_path() / "home").string(), "$HOME");
@@ -165,7 +164,7 @@ Step run(const std::string& command, const fs::path& folder, const fs::path& log
   return step;
 }
 
-/// Takes the marks of the pseudo-locale off and says how many texts had them.
+/// Removes the marks of the pseudo-locale and returns how many texts had them.
 std::size_t without_marks(std::string& text) {
   for (const char* mark : {"⟧", "M-bM-^_M-&", "M-bM-^_M-'"}) // as `cat -v` shows them, too
     files::replace_all(text, mark, "");
@@ -182,12 +181,12 @@ struct Options {
   std::vector<fs::path> paths;
 };
 
-/// True when a file came back as written (or was rewritten).
+/// Returns true if the file is unchanged, or was updated.
 bool compare(const fs::path& path, const std::string& before, const std::string& after,
              const Options& options) {
   if (before == after)
     return true;
-  if (shell::was_interrupted()) // and so is what came back
+  if (shell::was_interrupted()) // the output is then incomplete
     return false;
   if (options.update) {
     files::write(path, after);
@@ -204,7 +203,7 @@ bool compare(const fs::path& path, const std::string& before, const std::string&
   return false;
 }
 
-/// Tries what the help of all commands suggests.
+/// Follows the advice in the help of all commands.
 bool follow_help() {
   const files::Scratch logs;
   const auto problems =
@@ -222,7 +221,7 @@ void write_inputs(const Transcript& transcript, const fs::path& work) {
     files::write(work / input.name, content_of(input));
 }
 
-/// Follows what the commands of a transcript suggest, each where it has just run.
+/// Follows the advice of each command of a transcript right after it ran.
 bool follow_advice(const fs::path& path) {
   const auto text = files::read(path);
   const files::Scratch scratch;
@@ -268,7 +267,7 @@ bool check_transcript(const fs::path& path, const Options& options) {
   return actual.steps == expected.steps || compare(path, print(expected), print(actual), options);
 }
 
-/// A page of the documentation: its commands succeed, what it shows is what they print.
+/// Runs a page of the documentation: its commands must succeed and print what the page shows.
 bool check_page(const fs::path& path, const Options& options) {
   const auto text = files::read(path);
   const auto page = docs::read(text);
@@ -300,7 +299,7 @@ bool check(const fs::path& path, const Options& options) {
   return good;
 }
 
-/// The transcripts and pages among `paths` and in the folders among them.
+/// Returns the transcripts and pages in `paths`, including those in folders.
 std::vector<fs::path> transcripts(const std::vector<fs::path>& paths) {
   std::vector<fs::path> files;
   for (const auto& path : paths) {
@@ -316,7 +315,7 @@ std::vector<fs::path> transcripts(const std::vector<fs::path>& paths) {
   return files;
 }
 
-/// Every transcript runs under the same environment, whatever the developer's shell holds.
+/// Every transcript runs in the same environment, whatever the developer's shell sets.
 void set_environment(const Options& options) {
   const char* path = std::getenv("PATH");
   const auto with_orb = fs::absolute(options.orb).parent_path().string() + ":" + (path ? path : "");
@@ -325,7 +324,7 @@ void set_environment(const Options& options) {
   ::setenv("LC_ALL", options.pseudo ? "" : "C", 1);
   ::setenv("LC_MESSAGES", options.pseudo ? "qps" : "C", 1);
   ::setenv("TERM", "dumb", 1);
-  // No transcript hears the robots around it.
+  // Transcripts must not see real robots nearby.
   ::setenv("DBUS_SYSTEM_BUS_ADDRESS", "unix:path=/nonexistent/bus", 1);
   for (const char* name :
        {"ORB_PORT", "ORB_TARGET", "NO_COLOR", "CLICOLOR_FORCE", "XDG_CONFIG_HOME"})

@@ -10,7 +10,7 @@ namespace shell {
 namespace {
 
 volatile std::sig_atomic_t interrupted = 0;
-volatile std::sig_atomic_t running = 0; ///< the process group of the command; 0 where there is none
+volatile std::sig_atomic_t running = 0; ///< the process group of the command; 0 if there is none
 std::vector<pid_t> groups;
 
 void pass_on(int signal) {
@@ -45,10 +45,10 @@ int run(const std::string& line) {
     ::execl("/bin/sh", "sh", "-c", line.c_str(), nullptr);
     ::_exit(127);
   }
-  ::setpgid(child, child); // whoever comes first
+  ::setpgid(child, child); // both processes do it, because either may come first
   groups.push_back(child);
   running = child;
-  if (was_interrupted()) // since the last look
+  if (was_interrupted()) // since the last call
     ::kill(-child, SIGTERM);
   int status = -1;
   while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {

@@ -2,18 +2,18 @@
 
 #include <string>
 
-/// Shell commands of the runner, each in a process group of its own: a runner that is interrupted
-/// ends them, and they it.
+/// Shell commands of the runner, each in its own process group, so that an interrupted runner can
+/// end them.
 namespace shell {
 
-/// Passes SIGINT, SIGTERM and SIGHUP on to the command that runs, from now on.
+/// From now on, passes SIGINT, SIGTERM and SIGHUP to the running command.
 void watch_signals();
-/// Whether there was such a signal; what ran then is not what the command does.
+/// True if there was such a signal: the output is then incomplete.
 bool was_interrupted();
 
-/// Runs a line by sh. Its wait status, as std::system has it; -1 where nothing could be started.
+/// Runs a line by sh. Returns its wait status, as std::system does; -1 if it could not be started.
 int run(const std::string& line);
-/// Ends what commands left in the background.
+/// Ends background processes that commands left behind.
 void end_all();
 
 } // namespace shell

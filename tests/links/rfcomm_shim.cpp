@@ -1,8 +1,8 @@
-// Stands in for the RFCOMM of the kernel, where there is no radio: preloaded, it turns a Bluetooth
-// socket into one of TCP, and connecting to the address ORB_SHIM_ROBOT (twelve digits, as the
-// kernel keeps them: the last byte first) on channel 1 into connecting to the port ORB_SHIM_PORT of
-// this machine. As in the kernel, a channel is connected once for a computer: the file
-// ORB_SHIM_LOCK says whether it is. Everything else about the socket is the kernel's own.
+// Replaces the kernel's RFCOMM on computers without a radio. Preloaded, it turns Bluetooth sockets
+// into TCP sockets: connecting to the address ORB_SHIM_ROBOT (twelve digits, last byte first, as
+// the kernel stores it) on channel 1 connects to the local port ORB_SHIM_PORT. As in the kernel,
+// only one process can have the channel: the file ORB_SHIM_LOCK is locked meanwhile. The rest of
+// the socket is the kernel's own.
 
 #include <arpa/inet.h>
 #include <cerrno>
@@ -26,8 +26,7 @@ Function* next(const char* name) {
   return reinterpret_cast<Function*>(::dlsym(RTLD_NEXT, name));
 }
 
-/// The errno with which connecting to the address ends before it begins; 0 where the robot is
-/// there.
+/// The errno of connecting to the address; 0 if the robot is there.
 int refusal(const unsigned char* bytes) {
   char text[13];
   for (int i = 0; i < 6; ++i)
@@ -38,7 +37,7 @@ int refusal(const unsigned char* bytes) {
   return bytes[8] == robot_channel ? 0 : ECONNREFUSED;
 }
 
-/// Whether no other process has the channel; it is ours until this process ends.
+/// Takes the channel until this process ends; false if another process has it.
 bool take_channel() {
   static const int file = ::open(std::getenv("ORB_SHIM_LOCK"), O_RDWR | O_CREAT | O_CLOEXEC, 0600);
   return ::flock(file, LOCK_EX | LOCK_NB) == 0;

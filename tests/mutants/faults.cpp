@@ -10,16 +10,16 @@
 namespace mutants {
 namespace {
 
-/// Nobody listens: the ending tells.
+/// Ignores events: the ending says enough.
 class Deaf : public orb::run::Listener {
 public:
   void on_event(orb::Duration, const orb::vm::Event&) override {}
   void on_fault(orb::Duration, const orb::run::ProgramError&) override {}
 };
 
-/// The fault that stops a program; nothing where none does.
+/// Returns the fault that stops a program; nothing if there is none.
 std::optional<orb::run::ProgramError> fault_of(orb::run::Input input) {
-  constexpr auto long_enough = std::chrono::seconds(20); // for two rounds of any example
+  constexpr auto long_enough = std::chrono::seconds(20); // enough for two rounds of any example
   std::vector<orb::run::Input> inputs;
   inputs.push_back(std::move(input));
   orb::run::Options options;

@@ -1,11 +1,11 @@
 // mutants ROOT [--mutants N] [--show | --faults N]: changes a token of the examples and lessons, in
-// all four languages, and makes the safe fixes, as `orb check --fix` does. Fails when a fix leaves
-// more errors than it found, when a second --fix changes something, when a program that ran means
-// something else afterwards, or when a program that did not run gets a meaning which is neither
-// that of the program that was changed nor keeps all its numbers, names and texts.
+// all four languages, and applies the safe fixes, as `orb check --fix` does. Fails if a fix adds
+// errors, if a second --fix changes something, if a fix changes the meaning of a program that ran,
+// or if a fix makes a program run that neither equals the original nor keeps all numbers, names and
+// texts of the mutant.
 //
-// With --faults it makes no fixes but runs mutants of clean programs until N of them have been
-// stopped by a fault, and tells of how many `orb check` says nothing.
+// With --faults it applies no fixes, but runs mutants of clean programs until a fault has stopped N
+// of them, and counts those in which `orb check` finds nothing.
 
 #include "base/fixes.h"
 #include "mutants/faults.h"
@@ -63,7 +63,7 @@ std::vector<Program> programs(const fs::path& root) {
     one.language = static_cast<Language>(ending - std::begin(slips::endings));
     one.lines = slips::split({std::istreambuf_iterator<char>(in), {}});
     one.meaning = slips::meaning(one.language, one.lines);
-    if (!one.meaning.empty()) // what includes other files has none
+    if (!one.meaning.empty()) // empty for programs that include others
       all.push_back(std::move(one));
   }
   return all;
@@ -80,7 +80,7 @@ bool is_part(char c) {
   return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_';
 }
 
-/// Whether decimal places follow.
+/// True if a decimal point and digits follow.
 bool is_point(const std::string& line, std::size_t at) {
   return line[at] == '.' && at + 1 < line.size() &&
          std::isdigit(static_cast<unsigned char>(line[at + 1])) != 0;
@@ -111,7 +111,7 @@ std::vector<Piece> pieces_of(Language language, const std::string& line) {
   return all;
 }
 
-/// A line with a token left out, twice, swapped, replaced, joined to the next one, or in two.
+/// Returns the line with a token omitted, doubled, swapped, replaced, joined to the next, or split.
 std::string mutated(const Program& program, std::size_t at, std::mt19937& random) {
   const auto& line = program.lines[at];
   const auto pieces = pieces_of(program.language, line);
@@ -155,23 +155,22 @@ std::string mutated(const Program& program, std::size_t at, std::mt19937& random
 
 // ---- what a program says
 
-/// A number with its unit, as one in milliseconds: `.5s` is `500ms`. A word behind it is another
-/// token.
+/// Normalises a number with its unit to milliseconds: `.5s` is `500ms`.
 std::string as_written(const std::string& token) {
   char* unit = nullptr;
   const auto value = std::strtod(token.c_str(), &unit);
   return fmt::format("{}", std::string_view(unit) == "s" ? value * 1000 : value);
 }
 
-/// The same where it is written in two ways: `0 - 1` is orbBasic's `-1`, and a `;` in front of all
-/// that is printed does nothing.
+/// Normalises two spellings of the same: `0 - 1` is orbBasic's `-1`, and a leading `;` in a `print`
+/// has no effect.
 std::string plain(std::string meaning) {
   meaning = std::regex_replace(meaning, std::regex("\\(0-([A-Z0-9]+)\\)"), "-$1");
   meaning = std::regex_replace(meaning, std::regex("\\b0-"), "-");
   return std::regex_replace(meaning, std::regex("(print|\\?)[ ;]*"), "print");
 }
 
-/// All its numbers but those of its lines, its texts, and its names.
+/// Returns the numbers (except line numbers), texts and names of a program.
 std::multiset<std::string> values_of(Language language, const Lines& lines,
                                      const std::vector<std::string>& names) {
   std::multiset<std::string> all;
@@ -193,12 +192,12 @@ std::multiset<std::string> values_of(Language language, const Lines& lines,
 
 struct Counts {
   std::size_t mutants = 0;
-  std::size_t ran = 0;      ///< that are programs as well
-  std::size_t fixed = 0;    ///< of the others: --fix changes something
-  std::size_t builds = 0;   ///< and a program comes of it
-  std::size_t restored = 0; ///< the one that was changed
-  std::size_t kept = 0;     ///< another, with all values of the mutant
-  std::size_t wrong = 0;    ///< anything that must not be
+  std::size_t ran = 0;      ///< that run, too
+  std::size_t fixed = 0;    ///< of the others, changed by --fix
+  std::size_t builds = 0;   ///< of these, run afterwards
+  std::size_t restored = 0; ///< equal to the original
+  std::size_t kept = 0;     ///< different, with all values of the mutant
+  std::size_t wrong = 0;    ///< violations
 };
 
 class Judge {
@@ -260,7 +259,7 @@ public:
     }
   }
 
-  /// Prints the table; whether all is well.
+  /// Prints the table; returns false if a rule was violated.
   bool report() const {
     std::cout << "| language | mutants | run | fixed | build then | as meant | keep their values | "
                  "wrong |\n"
@@ -280,7 +279,7 @@ private:
   bool show_;
 };
 
-/// Runs mutants of the programs of which nothing is said, until so many have been stopped.
+/// Runs mutants of clean programs until a fault has stopped the given number.
 void count_faults(std::vector<Program> all, std::size_t faults) {
   std::erase_if(all, [](const Program& one) {
     return (one.language != Language::Basic && one.language != Language::Structured) ||
@@ -322,7 +321,7 @@ int main(int argc, char** argv) {
   }
   std::mt19937 random(63);
   Judge judge(show);
-  for (std::size_t n = 0; n < most;) { // a language after the other
+  for (std::size_t n = 0; n < most;) { // one language after the other
     const auto& program = all[random() % all.size()];
     if (program.language != static_cast<Language>(n % 4))
       continue;

@@ -61,7 +61,7 @@ function check(name, deed) {
     if (failures.length <= 5) console.error(`${name}: ${error.message.split("\n").slice(0, 12).join("\n")}`);
   }
 }
-/** Its image, or nothing where it has errors. */
+/** /** Its image; nothing if it has errors. */
 function image_of(files, name) {
   try {
     return engine.call("build", { files, names: [name] }).bytes;
@@ -88,7 +88,7 @@ function check_program(name, text, others = {}) {
   ++counts.images;
   for (const one of new Set([got, fresh])) assert.deepEqual(image_of({ [path]: one, ...others }, path), image);
 }
-/** How deep lines stand around what does not parse nobody knows; what has no block is as it was. */
+/** /** Near a syntax error the indentation level is unknown; lines without a block keep theirs. */
 function check_broken(text, got) {
   const squeezed = all => all.split("\n").map(line => line.replace(/\s/g, "").toLowerCase()).filter(Boolean);
   assert.deepEqual(squeezed(got), squeezed(asked("format", text).text));

@@ -12,7 +12,7 @@ from page_test import by_id, chromium, click, folder, fragment, note_violations,
 
 program = "' a side\ngoroll 0, 80, 1 ' off\ndelay 1s\n\nif dshake then\n  RGB red\nend if\ngoroll 0, 0, 0\n"
 words = "[...document.querySelectorAll('#blocks .blocklySvg .blocklyBlockCanvas .blocklyText')].map(one => one.textContent.replaceAll('\\u00a0', ' '))"
-field = lambda word: f"[...document.querySelectorAll('#blocks .blocklySvg .blocklyBlockCanvas .blocklyText')].find(one => one.textContent.trim() === '{word}')"
+field = lambda word: f"[...document.querySelectorAll('#blocks .blocklySvg .blocklyBlockCanvas .blocklyText')].find(one => one.textContent.replaceAll('\\u00a0', ' ').trim() === '{word}')"
 middle = lambda found: f"(() => {{ const {{ x, y, width, height }} = ({found}).getBoundingClientRect(); return [x + width / 2, y + height / 2]; }})()"
 left = lambda found: f"(() => {{ const {{ x, y, height }} = ({found}).getBoundingClientRect(); return [x + 4, y + height / 2]; }})()"
 
@@ -78,7 +78,7 @@ class Blocks(unittest.TestCase):
     def test_the_program_is_shown_and_what_is_changed_is_written_at_once(self):
         page = self.open({"a.orb": program})
         shown = page.evaluate(words)
-        for word in ("goroll", "80", "1s", "dshake", "red", "' off", "a side"):
+        for word in ("drive", "heading", "at speed", "80", "1s", "dshake", "red", "' off", "a side"):
             self.assertIn(word, [one.strip() for one in shown])
         self.enter(page, "80", "120")
         page.wait(f"({text}) === {program.replace('80', '120')!r}")
@@ -110,15 +110,15 @@ class Blocks(unittest.TestCase):
         self.press(page, middle("[...document.querySelectorAll('.blocklyToolboxCategory')].find(one => one.textContent.includes('Light'))"))
         page.wait("document.querySelector('.blocklyFlyout .blocklyText') !== null")
         page.evaluate(wait(300))
-        begin = left("[...document.querySelectorAll('.blocklyFlyout .blocklyText')].find(one => one.textContent === 'RGB')")
-        end = f"(() => {{ const {{ x, bottom }} = ({field('delay')}).closest('.blocklyDraggable').querySelector('.blocklyPath').getBoundingClientRect(); return [x + 12, bottom + 12]; }})()"
+        begin = left("[...document.querySelectorAll('.blocklyFlyout .blocklyText')].find(one => one.textContent.replaceAll('\\u00a0', ' ') === 'light up in')")
+        end = f"(() => {{ const {{ x, bottom }} = ({field('wait')}).closest('.blocklyDraggable').querySelector('.blocklyPath').getBoundingClientRect(); return [x + 12, bottom + 12]; }})()"
         self.drag(page, begin, end)
         page.wait(f"({text}) === 'delay 1s\\nRGB red\\n'")
 
     def test_what_hangs_nowhere_is_not_in_the_text(self):
         page = self.open({"a.orb": "delay 1s\nRGB red\n"})
-        end = f"(() => {{ const [x, y] = {middle(field('RGB'))}; return [x + 150, y + 120]; }})()"
-        self.drag(page, left(field("RGB")), end)
+        end = f"(() => {{ const [x, y] = {middle(field('light up in'))}; return [x + 150, y + 120]; }})()"
+        self.drag(page, left(field("light up in")), end)
         page.wait(f"({text}) === 'delay 1s\\n'")
         page.wait("document.querySelector('.blocklyDisabled') !== null")
 
@@ -129,8 +129,8 @@ class Blocks(unittest.TestCase):
         page.key("a", modifiers=2)
         page.call("Input.insertText", text="repeat 3\n  LEDC 4\nend repeat\n")
         page.evaluate(click("as-blocks"))
-        page.wait(f"({words}).map(one => one.trim()).includes('LEDC')")
-        self.assertNotIn("goroll", page.evaluate(words))
+        page.wait(f"({words}).map(one => one.trim()).includes('light up in colour')")
+        self.assertNotIn("drive", page.evaluate(words))
 
     def test_lines_that_are_none_stay_byte_for_byte(self):
         broken = "delay 1s\n  goroll  0  80\n' note\nLEDC 3\n"
@@ -141,7 +141,7 @@ class Blocks(unittest.TestCase):
     # -- marks --
     def test_a_finding_marks_its_block(self):
         page = self.open({"a.orb": "LEDC 300\n"})
-        marked = f"({field('LEDC')}).closest('.blocklyDraggable').querySelector(':scope > .blocklyIconGroup') !== null"
+        marked = f"({field('light up in colour')}).closest('.blocklyDraggable').querySelector(':scope > .blocklyIconGroup') !== null"
         page.wait(marked)
         self.enter(page, "300", "3")
         page.wait(f"!({marked})")
@@ -185,7 +185,7 @@ class Blocks(unittest.TestCase):
         page = self.open({"a.orb": "delay 1s\nLEDC 3\n"})
         page.evaluate("document.querySelector('#blocks .blocklySvg [tabindex=\"0\"], #blocks .blocklySvg[tabindex=\"0\"]').focus()")
         for _ in range(12):
-            if "ledc" in page.evaluate("(document.activeElement.getAttribute('aria-label') ?? '').toLowerCase()") or page.evaluate("document.querySelector('.blocklySelected .blocklyText')?.textContent === 'LEDC colour'"):
+            if "light up in colour" in page.evaluate("(document.activeElement.getAttribute('aria-label') ?? '').toLowerCase()") or page.evaluate("document.querySelector('.blocklySelected .blocklyText')?.textContent.replaceAll('\\u00a0', ' ') === 'light up in colour'"):
                 break
             self.key(page, "ArrowDown", 40)
             page.evaluate(wait(60))
@@ -195,7 +195,7 @@ class Blocks(unittest.TestCase):
     def test_on_a_phone(self):
         page = self.open({"a.orb": program}, width=390, height=844, mobile=True)
         self.assertLessEqual(page.evaluate("document.documentElement.scrollWidth"), 390)
-        box = page.evaluate(f"(() => {{ const {{ x, y, width, height }} = ({field('goroll')}).getBoundingClientRect(); return [x, y, width, height]; }})()")
+        box = page.evaluate(f"(() => {{ const {{ x, y, width, height }} = ({field('heading')}).getBoundingClientRect(); return [x, y, width, height]; }})()")
         self.assertGreater(box[0], 0)
         self.assertGreater(page.evaluate("document.querySelector('.blocklyToolboxCategory').getBoundingClientRect().height"), 30)
         self.press(page, middle("document.querySelector('.blocklyToolboxCategory')"))
@@ -206,7 +206,7 @@ class Blocks(unittest.TestCase):
         own = [name for name in os.listdir(folder) if name.startswith("view-") or name == "blocks.css"] + [f"blocks/{name}" for name in os.listdir(os.path.join(folder, "blocks"))]
         self.assertEqual(len([name for name in own if name.startswith("view-")]), 1)
         self.assertLessEqual(sum(weight.brotli(os.path.join(folder, name)) for name in own), 200_000)
-        self.assertFalse([name for name in weight.weights(folder) if name in own])
+        self.assertFalse([name for name in weight.listed(folder) if name in own])
         page = self.open({"a.orb": program}, blocks=False)
         page.evaluate(wait(500))
         self.assertFalse([url for url in page.requests if "/view-" in url or "/blocks" in url])

@@ -1,6 +1,6 @@
-// What the engine of the playground says against what orb itself says: findings, traces and verdicts of all
-// examples and lessons, and the bytes of uploads over bad links.
-// usage: node engine.mjs ORB ROOT [FOLDER]; exits 77 where `./dev playground` has built nothing.
+// Compares the engine of the playground with orb: findings, traces and verdicts of all examples and lessons, and
+// the bytes of uploads over bad links.
+// usage: node engine.mjs ORB ROOT [FOLDER]; exits with 77 if `./dev playground` has built nothing.
 import assert from "node:assert/strict";
 import { execFile, spawn } from "node:child_process";
 import { existsSync, mkdtempSync, readFileSync, readdirSync, rmSync, writeFileSync } from "node:fs";
@@ -16,7 +16,7 @@ if (!existsSync(join(folder, "orb.wasm"))) {
 }
 const { load_engine } = await import(pathToFileURL(join(root, "build/npm/engine.js")));
 const { deliver } = await import(pathToFileURL(join(root, "playground/link.js")));
-// In the two parts in which the page loads it.
+// In two parts, as the page loads it.
 const { instance_in_parts } = await import(pathToFileURL(join(root, "playground/split/parts.js")));
 const rest = readdirSync(folder).find(name => /^orb-rest-.*\.wasm$/.test(name));
 let rest_was_read = 0;
@@ -62,8 +62,8 @@ for (const number of ["7.25", "0.1", ".5", "5.", "1e3", "1e400", "1e-400", "0e9"
 }
 
 // ---- programs ----
-const { groups } = JSON.parse(readFileSync(join(folder, "examples.json"), "utf8"));
-const items = groups.flatMap(group => group.items);
+const { whole_groups } = await import(pathToFileURL(join(root, "playground/items.mjs")));
+const items = whole_groups(folder).flatMap(group => group.items).filter(({ language }) => language !== "js"); // edu.mjs has those
 const solved = items.filter(item => item.solution)
   .map(item => ({ ...item, id: `${item.id} solved`, files: { ...item.files, [item.main]: item.solution } }));
 const mistakes = { id: "mistakes", main: "mistakes.bas", run: {}, files: { "mistakes.bas": readFileSync(join(root, "examples/demo/mistakes.bas"), "utf8") } };
@@ -178,6 +178,7 @@ const dance = readFileSync(join(root, "examples/macros/waltz.macro"), "utf8");
 const uploads = [
   { name: "a program", files: { "a.bas": square }, names: ["a.bas"], run: true },
   { name: "a program into flash", files: { "a.bas": square }, names: ["a.bas"], area: "flash" },
+  { name: "a program that stops", files: { "a.bas": "10 goroll 0, 100, 1\n20 A = xpos\n30 print 5 / A\n" }, names: ["a.bas"], run: true },
   { name: "macros", files: { "a.macro": dance }, names: ["a.macro"] },
 ];
 const faults = ["", "drop=3%,seed=7", "flip=2%,seed=3", "dup=5%,seed=5", "split,delay=1..5ms,seed=2", "cut@300"];
@@ -189,8 +190,8 @@ const comparable = message => message.replace(/^orb: (error: )?/, "").replace(/,
 async function native_outcome({ files, names, area, run }, recording) {
   const { code, err } = await orb(["upload", ...names, "--port", "replay://recording", ...area ? ["--area", area] : [], ...run ? ["--run"] : []],
     { ...files, recording: recording.join("\n") + "\n" });
-  // That the program has started is seen on the page by what the robot prints.
-  return { code, message: comparable(err.trim().split("\n").filter(line => !/^(orb: )?started$/.test(line)).pop()) };
+  const lines = err.trim().split("\n"), started = /^(orb: )?started$/.test(lines.at(-1));
+  return { code, message: comparable(lines.at(started ? -2 : -1)), started };
 }
 const async_engine = { call: async (method, params) => engine.call(method, params) };
 for (const fault of faults)
@@ -202,12 +203,12 @@ for (const fault of faults)
     await link.close();
     served.end();
     const native = await native_outcome(upload, recording);
-    same("upload", `${upload.name}, ${fault || "a good link"}`, { code: outcome.code, message: comparable(outcome.message) }, native);
+    same("upload", `${upload.name}, ${fault || "a good link"}`, { code: outcome.code, message: comparable(outcome.message.replace(/; started$/, "")), started: /; started$/.test(outcome.message) }, native);
   }
 
 same("parts", "what was loaded for uploads, once", rest_was_read, 1);
 
-// ---- an upload that somebody stops, and one to nobody ----
+// ---- an upload that is stopped, and one without a receiver ----
 {
   const served = await ball("--fault", "delay=30..30ms");
   const link = await tcp_link(served.port, []);

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What the playground weighs and how soon it is there, as the table of docs/performance.md. usage: measure.py FOLDER"""
+"""Measures size and load times of the playground for the table in docs/inside/performance.md. usage: measure.py FOLDER"""
 
 import os
 import statistics
@@ -27,7 +27,7 @@ def load(browser, server):
 
 
 def newcomer(browser, server):
-    """From the first paint until the ball moves, where Run is pressed at once."""
+    """Measures from the first paint until the ball moves, with Run pressed at once."""
     page = browser.page(fresh=True)
     page.go(server.url)
     page.wait("document.readyState === 'complete'")

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""Takes the pictures of docs/playground/ anew. usage: pictures.py FOLDER [NAME...]
+"""Takes the pictures in docs/using/playground/ again. usage: pictures.py FOLDER [NAME...]
 
-FOLDER is what `./dev playground` built. NAME `icons` draws those of the installed page, of icon.svg. Wants a Chromium,
-and pngquant, which gives each a palette."""
+FOLDER is what `./dev playground` built. NAME `icons` draws the icons of the installed page from icon.svg. Needs Chromium,
+and pngquant, which gives each picture a palette."""
 
 import json
 import os
@@ -14,7 +14,7 @@ sys.path.insert(0, os.path.join(here, "..", "report"))
 import browser as chromium
 import site_server
 
-out = os.path.join(here, "../../docs/playground")
+out = os.path.join(here, "../../docs/using/playground")
 by_id = lambda name: f"document.getElementById('{name}')"
 click = lambda name: f"{by_id(name)}.click()"
 pause = lambda ms: f"new Promise(done => setTimeout(done, {ms}))"
@@ -79,7 +79,7 @@ def on_phone(page):
     page.evaluate(pause(400))
 
 
-# name: where, width, height, colours, what is done
+# name: page, width, height, colours, actions
 pictures = {
     "first": ("", 1366, 768, "light", first),
     "run": ("#example=flower.orb", 1366, 768, "light", instant),
@@ -99,7 +99,7 @@ def squeeze(path):
     print(f"{os.path.basename(path)}: {os.path.getsize(path)} bytes")
 
 
-# name: size in pixels, how much of it the ball fills, what is around it
+# name: size in pixels, share that the ball fills, background
 icons = {"icon-192": (192, 1, "transparent"), "icon-512": (512, 1, "transparent"), "icon-maskable": (512, .7, "#efedf9")}
 
 

@@ -1,5 +1,5 @@
-// Random structured programs on standard output, each ended by a byte 0.
-// usage: random_structured FIRST_SEED COUNT
+// Writes random structured programs to standard output, each ended by a byte 0. usage:
+// random_structured FIRST_SEED COUNT
 
 #include "tests/unit/structured/random_structured.h"
 

@@ -1,4 +1,4 @@
-"""A web server for the built playground, as plain as any; and whether its pages' links lead somewhere."""
+"""A plain web server for the built playground, and a check of the links in its pages."""
 
 import functools
 import html.parser
@@ -12,7 +12,7 @@ import urllib.parse
 
 
 class Handler(http.server.SimpleHTTPRequestHandler):
-    wire = None  # what mocked ports of the browser lead to
+    wire = None  # where mocked ports of the browser lead
 
     def __init__(self, *arguments, without=frozenset(), asked=None, **more):
         self._without = without
@@ -40,15 +40,20 @@ class Handler(http.server.SimpleHTTPRequestHandler):
         self.wfile.write(data or b"")
 
 
+class Server(http.server.ThreadingHTTPServer):
+    daemon_threads = True
+
+    def handle_error(self, *_):
+        pass  # a browser that hung up
+
+
 class Site:
     def __init__(self, folder, without=()):
-        """`without`: names of files that are not found, until they are taken out of the set. `asked` are the paths that were
-        asked for."""
+        """`without`: names of files that are not found while they are in the set. `asked`: the requested paths."""
         self.without = set(without)
         self.asked = set()
         handler = functools.partial(Handler, directory=folder, without=self.without, asked=self.asked)
-        self._server = http.server.ThreadingHTTPServer(("127.0.0.1", 0), handler)
-        self._server.daemon_threads = True
+        self._server = Server(("127.0.0.1", 0), handler)
         self.url = f"http://127.0.0.1:{self._server.server_port}/"
         threading.Thread(target=self._server.serve_forever, daemon=True).start()
 
@@ -72,7 +77,7 @@ class _Page(html.parser.HTMLParser):
 
 
 def dead_links(folder):
-    """The links within `folder` to what is not there, as `page: link`."""
+    """Returns the broken links within `folder`, as `page: link`."""
     pages = {}
     for place, _, names in os.walk(folder):
         for name in names:
@@ -96,11 +101,11 @@ def dead_links(folder):
 
 
 class Wire:
-    """A ball of `orb ball` behind the web server, for a mocked port of the browser: what is written to /wire/write goes to
-    the ball, /wire/read waits for what it says. After `cut` bytes the link is gone."""
+    """An `orb ball` behind the web server, for a mocked port of the browser: /wire/write sends to the ball, /wire/read waits
+    for its output. The link breaks after `cut` bytes. state() is what the ball itself knows."""
 
     def __init__(self, orb, *options, cut=None):
-        self._process = subprocess.Popen([orb, "ball", "--tcp", "127.0.0.1:0", *options], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+        self._process = subprocess.Popen([orb, "ball", "--tcp", "127.0.0.1:0", "--control", *options], stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, bufsize=1)
         line = self._process.stdout.readline()
         host, port = re.search(r"(127\.0\.0\.1):(\d+)", line).groups()
         self._socket = socket.create_connection((host, int(port)))
@@ -126,8 +131,20 @@ class Wire:
         except OSError:
             return None
 
+    def state(self):
+        """As the control line `state` has it; numbers where there are some."""
+        self._process.stdin.write("state\n")
+        values = (word.split("=") for word in self._process.stdout.readline().split())
+        return {name: float(value) if re.fullmatch(r"-?[\d.]+", value) else value for name, value in values}
+
+    def tell(self, stimulus):
+        """Something happens to it."""
+        self._process.stdin.write(f"{stimulus}\n")
+        self._process.stdout.readline()
+
     def close(self):
         self._socket.close()
         self._process.terminate()
         self._process.wait()
+        self._process.stdin.close()
         self._process.stdout.close()

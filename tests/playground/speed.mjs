@@ -1,5 +1,5 @@
-// The figures of docs/performance.md, "In a browser": sizes, the loop of the machine against orb's own, findings.
-// Ends with 1 where the loop misses its goal.
+// Measures the figures of docs/inside/performance.md, "In a browser": sizes, the interpreter loop compared with orb's,
+// findings. Exits with 1 if the loop misses its goal.
 // usage: node speed.mjs ORB ROOT
 import { execFileSync } from "node:child_process";
 import { mkdtempSync, readFileSync, readdirSync, rmSync, writeFileSync } from "node:fs";
@@ -51,8 +51,8 @@ const mean = product ** (1 / Object.keys(kernels).length);
 console.log(`geometric mean ${mean.toFixed(2)} (goal ${goal})`);
 process.exitCode = mean < goal ? 1 : 0;
 
-const { groups } = JSON.parse(readFileSync(join(folder, "examples.json"), "utf8"));
-const programs = groups.flatMap(group => group.items).flatMap(item => Object.entries(item.files)).filter(([name]) => /\.(orb|bas)$/.test(name));
+const { whole_groups } = await import(pathToFileURL(join(root, "playground/items.mjs")));
+const programs = whole_groups(folder).flatMap(group => group.items).flatMap(item => Object.entries(item.files)).filter(([name]) => /\.(orb|bas)$/.test(name));
 const [name, text] = programs.reduce((a, b) => b[1].length > a[1].length ? b : a);
 const say = message => engine.call("lsp", { message: { jsonrpc: "2.0", ...message } });
 say({ id: 1, method: "initialize", params: { capabilities: {} } });

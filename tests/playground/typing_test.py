@@ -1,16 +1,15 @@
 #!/usr/bin/env python3
-"""Somebody types in the playground, key by key, in a headless Chromium. usage: typing_test.py ORB FOLDER [TEST...]
+"""Types in the playground, key by key, in a headless Chromium. usage: typing_test.py ORB FOLDER [TEST...]
 
-FOLDER is what `./dev playground` built. `Input.insertText` cannot see what Enter does to a list that is open: here every key
-goes down and up. ORB_PACES=60,150,400 types the lessons at each of these paces (milliseconds a key), else at 60 only."""
+FOLDER is what `./dev playground` built. Every key goes down and up, because `Input.insertText` would not show what Enter does to
+an open list. ORB_PACES=60,150,400 types the lessons at each of these paces (milliseconds a key); the default is 60."""
 
-import json
 import os
 import sys
 import time
 import unittest
 
-from page_test import chromium, click, by_id, coloured, folder, fragment, ready, site_server, text, wait
+from page_test import chromium, click, by_id, coloured, folder, fragment, lessons, ready, site_server, text, wait
 
 paces = [int(one) for one in os.environ.get("ORB_PACES", "60").split(",")]
 offers = "[...document.querySelectorAll('.cm-tooltip-autocomplete li .cm-completionLabel')].map(one => one.textContent)"
@@ -22,8 +21,7 @@ class Typing(unittest.TestCase):
     def setUpClass(cls):
         cls.server = site_server.Site(folder)
         cls.browser = chromium.Browser(chromium.find())
-        with open(os.path.join(folder, "examples.json"), encoding="utf-8") as file:
-            cls.lessons = [item for group in json.load(file)["groups"] for item in group["items"] if "readme" in item]
+        cls.lessons = lessons()
 
     @classmethod
     def tearDownClass(cls):
@@ -31,7 +29,7 @@ class Typing(unittest.TestCase):
         cls.server.close()
 
     def open(self, name="a.orb", before=""):
-        """An empty file, or one with a text before the place where somebody types."""
+        """Opens an empty file, or one with a text before the cursor."""
         page = self.browser.page(fresh=True)
         self.addCleanup(page.close)
         page.resize(1280, 860)
@@ -54,7 +52,7 @@ class Typing(unittest.TestCase):
             while time.monotonic() < begun + i * pace / 1000:
                 self.browser.listen(0.002)
             name = "Enter" if letter == "\n" else letter
-            # The number of a sign is that of another key: of `'` that of an arrow.
+            # The code of a sign is that of another key: for `'` an arrow.
             self.key(page, name, codes.get(name, ord(letter.upper()) if letter.isalnum() else 0))
 
     def typed(self, words, name="a.orb", pace=60, before=""):
@@ -88,7 +86,7 @@ class Typing(unittest.TestCase):
             page.evaluate(wait(400))
             self.assertEqual(page.evaluate(offers), [], words)
         page.call("Input.dispatchKeyEvent", type="rawKeyDown", key=" ", code="Space", windowsVirtualKeyCode=32, modifiers=2)
-        page.wait(f"({offers}).includes('speed')")  # to whoever asks
+        page.wait(f"({offers}).includes('speed')")  # when suggestions are requested
 
     def test_a_comment_begins_with_one_sign(self):
         self.assertEqual(self.typed("' it's a ball\nprint \"it's\" ' here's one\n"), "' it's a ball\nprint \"it's\" ' here's one\n")

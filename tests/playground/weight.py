@@ -1,4 +1,4 @@
-"""What a visitor of the playground loads."""
+"""Measures what a visitor of the playground loads."""
 
 import json
 import os
@@ -10,9 +10,14 @@ def brotli(path):
     return len(subprocess.run(["brotli", "-c", "-q", "11", path], stdout=subprocess.PIPE, check=True).stdout)
 
 
-def weights(folder, names="core"):
-    """The bytes of each file that a first visit loads, at once or to be kept for offline use; of those that are loaded when
-    somebody asks for them, where `names` is "on_demand"; of those of them that are kept soon, "soon"."""
+def listed(folder, names="core"):
+    """Returns the files of a first visit, including those kept for offline use; with `names` "on_demand" those loaded on
+    demand; with "soon" those of them that are kept soon."""
     with open(os.path.join(folder, "sw.js"), encoding="utf-8") as file:
-        listed = json.loads(re.search(rf"{names} = (\[.*?\])", file.read()).group(1))
-    return {name: brotli(os.path.join(folder, name)) for name in listed + (["sw.js"] if names == "core" else [])}
+        found = json.loads(re.search(rf"{names} = (\[.*?\])", file.read()).group(1))
+    return found + (["sw.js"] if names == "core" else [])
+
+
+def weights(folder, names="core"):
+    """Returns the size of each in bytes."""
+    return {name: brotli(os.path.join(folder, name)) for name in listed(folder, names)}

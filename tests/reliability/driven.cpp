@@ -1,9 +1,9 @@
-// Programs that drive a robot over bad links, many times and in virtual time: is the robot ever
-// left driving, is what was said of the stop at the end the truth, and how soon does a program
-// react? Prints a section of docs/reliability.md; exits with 1 when a robot was left driving.
+// Runs programs that drive a robot over bad links, many times and in virtual time: is the robot
+// ever left driving, is the report about the final stop true, and how soon does a program react?
+// Prints a section of docs/inside/reliability.md; exits with 1 if a robot was left driving.
 //
 //   driven [--runs N]        N runs per robot and fault profile (default 100)
-//   driven --runs 1000 | tests/reliability/section docs/reliability.md
+//   driven --runs 1000 | tests/reliability/section docs/inside/reliability.md
 
 #include "run/tether/run_tethered.h"
 #include "tests/fakes/far_robot.h"
@@ -48,10 +48,10 @@ test::FarRobot robot_behind(spec::Robot which, std::string_view plan, std::uint6
 }
 
 struct Tally {
-  int whole = 0;    ///< the program came to its end, the stop was acknowledged
-  int reported = 0; ///< the run says why it could not
-  int wrong = 0;    ///< the stop was said to be acknowledged, and the robot drives
-  int left = 0;     ///< it drives though nobody has said anything for 2.1 s
+  int whole = 0;    ///< the program ended and the stop was acknowledged
+  int reported = 0; ///< the run says why that failed
+  int wrong = 0;    ///< the stop was reported as acknowledged, but the robot drives
+  int left = 0;     ///< still driving 2.1 s after the last command
   Duration longest{};
 };
 
@@ -71,12 +71,12 @@ void run_once(Tally& tally, spec::Robot which, std::string_view plan, std::uint6
     ++tally.whole;
   else
     ++tally.reported;
-  robot.live_on(2100ms); // by itself it stops 2 s after the last command
+  robot.live_on(2100ms); // a robot stops by itself 2 s after the last command
   if (robot.drives())
     ++tally.left;
 }
 
-/// When the last sample came before the stop that answers it left.
+/// When the last sample arrived before the stop that reacts to it was sent.
 struct Watch final : protocol::Transport {
   explicit Watch(protocol::Transport& link) : inner(link) {}
   Instant now() const override { return inner.now(); }
@@ -117,7 +117,8 @@ double milliseconds(Duration time) {
   return static_cast<double>(time.count()) / 1e6;
 }
 
-/// The times from a sample to the command that answers it, of many runs that begin at odd moments.
+/// Returns the times from a sample to the command that reacts to it, of many runs with different
+/// starts.
 std::vector<double> reactions(int runs) {
   std::vector<double> all;
   for (int i = 1; i <= runs; ++i) {
@@ -137,7 +138,7 @@ std::vector<double> reactions(int runs) {
   return all;
 }
 
-/// The counts that are not 0, and the longest run.
+/// Returns the counts other than 0, and the longest run.
 std::string cell(const Tally& tally) {
   std::string text;
   for (const auto& [count, what] :
@@ -151,11 +152,11 @@ std::string cell(const Tally& tally) {
 std::string section(int runs, bool& bad) {
   auto page = fmt::format(R"(## Programs that drive a robot
 
-{} runs each of a square and half a second of raw motors (`orb run square.bas --port …`) on virtual robots, over [links with
-faults](uploading.md#trying-bad-links). *Whole*: the program ended and the robot acknowledged the stop.
-*Reported*: it could not, and the run says why. *Wrong*: the stop was reported as acknowledged, but the robot drives.
-*Left driving*: it still drives 2.1 s after the last command.
-The time is that of the longest run. `driven --runs 1000` repeats it.
+{} runs each of a square and half a second of raw motors (`orb run square.bas --port …`) on virtual robots, over
+[links with faults](../reference/links.md#faults-of-a-link). *Whole*: the program ended and the robot acknowledged the
+stop. *Reported*: it could not, and the run says why. *Wrong*: the stop was reported as acknowledged, but the robot
+drives. *Left driving*: it still drives 2.1 s after the last command. The time is that of the longest run.
+`driven --runs 1000` repeats it.
 
 )",
                           runs);

@@ -1,11 +1,10 @@
-// Uploads over bad links, many times and in virtual time, and looks at the ball afterwards: is what
-// the uploader says the truth? Prints tables, exits with 1 when it lied, hung or failed too often.
+// Uploads over bad links, many times and in virtual time, and compares each report with the ball.
+// Prints tables; exits with 1 if a report was wrong, or if uploads hung or failed too often.
 //
 //   reliability [--uploads N] [--ble N] [--document FILE]
 //
-// N uploads per fault profile (default 1000, and as many over Bluetooth LE); all other parts are
-// complete at any N. With
-// --document the result takes the place of the first sections of docs/reliability.md.
+// N uploads per fault profile (default 1000, and as many over Bluetooth LE); the other parts do not
+// depend on N. --document replaces the first sections of docs/inside/reliability.md.
 
 #include "compiler/load.h"
 #include "protocol/link_faults.h"
@@ -37,11 +36,11 @@ using uploader::ProgramJob;
 using uploader::Report;
 using Kind = uploader::Report::Kind;
 
-/// What was there before, so that "unchanged" can be told from "erased".
+/// The previous program, which distinguishes "unchanged" from "erased".
 constexpr std::string_view old_program = "10 print \"old\"\n";
 constexpr Duration round_trip = 10ms;
 
-/// A program of `lines` lines of about `width` bytes, with its final NUL.
+/// Returns a program of `lines` lines of about `width` bytes, with its final NUL.
 Bytes program_of(int lines, std::size_t width) {
   std::string text;
   for (int i = 1; i <= lines; ++i) {
@@ -55,24 +54,24 @@ Bytes program_of(int lines, std::size_t width) {
 }
 
 constexpr int sixty_lines = 60;
-constexpr std::size_t program_pieces = 5; ///< that it takes
+constexpr std::size_t program_pieces = 5; ///< of the upload
 constexpr std::size_t line_width = 19;
 
 ByteView bytes_of(std::string_view text) {
   return as_bytes(text);
 }
 
-/// Whether the ball tells how many packets it has received. Those that were recorded do not.
-enum class Counting : std::uint8_t { Refused, Told };
+/// If the ball reports how many packets it received. Recorded balls do not.
+enum class Counting : std::uint8_t { Refused, Reported };
 
-/// A ball with old programs in both areas.
+/// Returns a ball with old programs in both areas.
 std::unique_ptr<vm::Ball> make_ball(std::uint64_t seed, Counting counting = Counting::Refused,
                                     std::size_t ram_bytes = 4096,
                                     vm::Observer* observer = nullptr) {
   vm::BallOptions options;
   options.seed = seed;
   options.firmware =
-      counting == Counting::Told ? spec::Firmware::Sphero351 : spec::Firmware::Sphero373;
+      counting == Counting::Reported ? spec::Firmware::Sphero351 : spec::Firmware::Sphero373;
   options.loader = compiler::load;
   options.ram_bytes = ram_bytes;
   options.observer = observer;
@@ -107,7 +106,7 @@ Run upload_once(protocol::Transport& link, const ProgramJob& job, std::uint8_t f
   return run;
 }
 
-/// Whether a report is true of the ball.
+/// True if the report describes the ball correctly.
 bool is_true(const Report& report, const vm::Ball& ball, const ProgramJob& job) {
   const std::string_view image = as_text(job.image);
   const auto area = job.area == Area::Flash ? vm::Area::Flash : vm::Area::Ram;
@@ -132,7 +131,7 @@ struct Tally {
   int runs = 0;
   int done = 0;
   int reported = 0;
-  int wrong = 0;   ///< success said, other content
+  int wrong = 0;   ///< reported success, other content
   int untrue = 0;  ///< a failure whose description does not fit the ball
   int overdue = 0; ///< beyond the deadline of the plan
   Duration longest{};
@@ -150,6 +149,15 @@ struct Tally {
       ++overdue;
     longest = std::max(longest, run.took);
   }
+  void add(const Tally& other) {
+    runs += other.runs;
+    done += other.done;
+    reported += other.reported;
+    wrong += other.wrong;
+    untrue += other.untrue;
+    overdue += other.overdue;
+    longest = std::max(longest, other.longest);
+  }
   bool honest() const { return wrong == 0 && untrue == 0 && overdue == 0; }
 };
 
@@ -159,8 +167,8 @@ double seconds(Duration duration) {
 
 struct Profile {
   std::string_view plan;
-  double least_success;       ///< 0 for none demanded
-  std::string_view sphero_js; ///< of 2000 runs, where they were measured
+  double least_success;       ///< 0: none required
+  std::string_view sphero_js; ///< of 2000 runs, if measured
   std::string_view sphero_pwn;
 };
 
@@ -183,7 +191,7 @@ constexpr auto profiles = std::to_array<Profile>({
     {"storm=30%,drop=1%,flip=1%", 0.999, not_measured, not_measured},
 });
 
-/// Requests that arrive twice. Alone they are always noticed, by their second answers.
+/// Requests that arrive twice. Without other faults the second answer always reveals them.
 constexpr auto doubled_requests = std::to_array<std::string_view>(
     {"dup-request=1%", "dup-request=1%,drop=1%", "dup-request=10%,drop=10%"});
 
@@ -205,8 +213,8 @@ Tally run_profile(std::string_view words, int uploads, Counting counting = Count
   return tally;
 }
 
-/// The link above a GATT: packets in pieces of 20 bytes, notifications of 1 to 20. The faults of
-/// the link happen to the packets, those of `gatt` to the pieces.
+/// Uploads over a fake GATT: packets in pieces of 20 bytes, notifications of 1 to 20. The faults of
+/// `words` affect packets, those of `gatt` pieces.
 auto over_ble(std::unique_ptr<protocol::Transport> link, protocol::BleFaultPlan gatt) {
   constexpr Duration piece_interval = 30ms;
   gatt.pieces_least = 1;
@@ -232,7 +240,7 @@ Tally run_ble(std::string_view words, protocol::BleFaultPlan gatt, int uploads) 
   return tally;
 }
 
-/// The counts that are not 0, in words.
+/// Returns the counts other than 0 in words.
 std::string tally_cells(const Tally& tally) {
   std::string cells;
   for (const auto& [count, what] :
@@ -243,7 +251,7 @@ std::string tally_cells(const Tally& tally) {
   return cells;
 }
 
-/// Prints as it goes and keeps the document.
+/// Prints each part and collects the document.
 struct Page {
   std::string text;
   bool failed = false;
@@ -292,10 +300,11 @@ Over Bluetooth LE the same packets travel in [pieces](#bluetooth-le).
           make_plan(job_for(2), uploader::default_capabilities(), uploader::Budgets{})->deadline)));
 }
 
-/// What goes wrong with pieces alone.
+/// Faults of pieces alone.
 constexpr auto ble_profiles = std::to_array<std::string_view>(
-    {"lose=0%", "lose=1%", "lose=5%", "refuse=0.1%", "refuse=1%", "lose=1%,refuse=1%",
-     "drop-once@connect", "drop-once@services", "drop-once@anti-dos", "drop-once@tx-power",
+    {"lose=0%", "lose=1%", "lose=5%", "refuse=0.1%", "refuse=1%", "lose=1%,refuse=1%"});
+constexpr auto drop_profiles = std::to_array<std::string_view>(
+    {"drop-once@connect", "drop-once@services", "drop-once@anti-dos", "drop-once@tx-power",
      "drop-once@wake", "drop-once@subscribe"});
 
 void add_ble(Page& page, int uploads) {
@@ -304,26 +313,35 @@ void add_ble(Page& page, int uploads) {
 The same program, {} uploads each, through all of orb but D-Bus ([see there](#over-d-bus)): a fake of the robot's
 characteristics replaces BlueZ, so time is virtual. Written pieces have 20 bytes and are acknowledged after 30 ms;
 notifications have 1 to 20 bytes. The faults are [those of
-`orb ball`](uploading.md#virtual-robots-over-bluetooth-le).
+`orb ball`](../using/uploading.md#virtual-robots-over-bluetooth-le).
 
 | profile | orb | longest |
 |---|---|---|
 )",
                        uploads));
-  for (const auto words : ble_profiles) {
-    const auto tally = run_ble({}, *protocol::parse_ble_fault_plan(words), uploads);
-    page.add(fmt::format("| `{}` | {} | {:.1f} s |\n", words, tally_cells(tally),
-                         seconds(tally.longest)));
+  const auto measure_profile = [&](std::string_view words) {
+    auto tally = run_ble({}, *protocol::parse_ble_fault_plan(words), uploads);
     page.check(tally.honest(),
                fmt::format("{}: {}, {} overdue", words, tally_cells(tally), tally.overdue));
+    return tally;
+  };
+  for (const auto words : ble_profiles) {
+    const auto tally = measure_profile(words);
+    page.add(fmt::format("| `{}` | {} | {:.1f} s |\n", words, tally_cells(tally),
+                         seconds(tally.longest)));
   }
+  Tally drops;
+  for (const auto words : drop_profiles)
+    drops.add(measure_profile(words));
+  page.add(fmt::format("| `drop-once@` each of the {} steps | {} | {:.1f} s |\n",
+                       drop_profiles.size(), tally_cells(drops), seconds(drops.longest)));
   page.add(fmt::format(
       "\nNo upload exceeded the deadline of its plan, {:.0f} s.\n\n",
       seconds(make_plan(job_for(2), uploader::default_capabilities(), uploader::ble_budgets({}))
                   ->deadline)));
 }
 
-/// Sees the markers that a macro emits.
+/// Records the markers of a macro.
 struct Markers final : vm::Observer {
   void on_event(Instant, const vm::Event& event) override {
     if (const auto* marker = std::get_if<vm::event::Marker>(&event))
@@ -332,8 +350,8 @@ struct Markers final : vm::Observer {
   Bytes seen;
 };
 
-/// A macro of markers: in chunks as the temporary one it is compared as it is stored, streamed as
-/// it was played.
+/// A macro of markers. As a temporary macro the stored bytes are compared, as a stream the played
+/// markers.
 constexpr std::size_t macro_pieces = 4;
 
 Tally run_macros(std::string_view words, int uploads, uploader::MacroKind kind, Counting counting) {
@@ -376,18 +394,19 @@ Tally run_macros(std::string_view words, int uploads, uploader::MacroKind kind, 
 void add_doubled_requests(Page& page, int uploads) {
   page.add(R"(## Duplicate requests
 
-If a link delivers a *request* twice and loses the second answer, no answer shows the duplicate, and nothing can be read
-back. `orb upload` then gives an upper bound on wrong successes, 1 − (1 − r)^pieces, where r is the share of duplicate
-pieces with one answer among those that look right. If a ball that [counts packets](uploading.md#what-is-sent) received
-more than were answered, a program is resent, a macro reported as unknown and aborted.
+If a link delivers a *request* twice and loses the second answer, no answer shows the duplicate, and the ball's memory
+cannot be read. `orb upload` then gives an upper bound on wrong successes, 1 − (1 − r)^pieces, where r is the share of
+duplicate pieces with one answer among those that look right. If a ball that [counts
+packets](../reference/links.md#what-an-upload-sends) received more than it answered, orb resends a program, and aborts a macro
+and reports it as unknown.
 
 | profile | the ball counts | program, 5 pieces | bound | macro in 4 chunks | macro streamed in 4 pieces | bound |
 |---|---|---|---|---|---|---|
 )");
   for (const auto words : doubled_requests)
-    for (const auto counting : {Counting::Refused, Counting::Told}) {
+    for (const auto counting : {Counting::Refused, Counting::Reported}) {
       const auto plan = *protocol::parse_fault_plan(words);
-      const auto tells = counting == Counting::Told;
+      const auto tells = counting == Counting::Reported;
       const auto bound = [&](std::size_t pieces) {
         return tells ? 0 : uploader::unseen_bound(pieces, plan.dup_request, plan.drop);
       };
@@ -410,7 +429,7 @@ more than were answered, a program is resent, a macro reported as unknown and ab
   page.add("\n");
 }
 
-/// How many bytes a faultless upload sends and receives.
+/// Returns the bytes that an upload without faults sends and receives.
 struct Traffic {
   std::uint64_t to_ball = 0;
   std::uint64_t from_ball = 0;
@@ -453,7 +472,7 @@ Each bit of a {}-byte upload in turn is inverted.
   page.add("\n");
 }
 
-/// Breaks the link after each byte of one direction, and uploads again over a new one.
+/// Cuts the link after each byte of one direction, then uploads again over a new one.
 void add_cuts(Page& page, const ProgramJob& job, bool to_ball, bool ble) {
   const auto traffic = measure(job);
   const auto budgets = ble ? uploader::ble_budgets({}) : uploader::Budgets{};
@@ -495,7 +514,7 @@ void add_full_storage(Page& page) {
   constexpr int runs = 50;
   int refused = 0;
   for (int i = 1; i <= runs; ++i) {
-    constexpr std::size_t too_small = 600; // bytes, though the ball says that it has 4096
+    constexpr std::size_t too_small = 600; // bytes, although the ball reports 4096
     const auto ball = make_ball(static_cast<std::uint64_t>(i), Counting::Refused, too_small);
     const auto link = connect(*ball, {});
     const ProgramJob job{program_of(sixty_lines, line_width), Area::Ram, {}};
@@ -512,7 +531,7 @@ gets **50 wrong**.
   page.check(refused == runs, "storage full");
 }
 
-/// Hears when the first fragment leaves and when the last answer before the barrier comes.
+/// Records when the first fragment is sent and when the last answer before the barrier arrives.
 class Clock final : public uploader::Progress {
 public:
   void on_item(std::string_view) override {}
@@ -563,7 +582,7 @@ rest of the upload takes {:.3f} s (200 ms of draining, {} more packets).
   page.check(ratio <= 1.05, fmt::format("speed: {:.3f} of what is needed", ratio));
 }
 
-/// Writes the text to the document, above what others have measured there.
+/// Replaces the beginning of the document, up to the sections of other tools.
 void write(const std::string& document, const std::string& text) {
   std::ostringstream before;
   before << std::ifstream(document, std::ios::binary).rdbuf();
@@ -590,12 +609,13 @@ int main(int argc, char** argv) {
   Page page;
   page.add(fmt::format(R"(# How reliable uploading is
 
-Printed by `build/release/bin/reliability --uploads {} --document docs/reliability.md`, from
+Printed by `build/release/bin/reliability --uploads {} --document docs/inside/reliability.md`, from
 [Writes that fail](#writes-that-fail) on by the commands named there; do not edit. Time is virtual and every upload has
-its own seed, so the numbers repeat exactly. The ball is the built-in `sphero-3.73`, which like both recorded robots
-tells no count of packets. After each upload its storage is compared with the report: *ok* is a true success, *reported*
-a failure whose message describes the ball truly, *wrong* everything else. Counts of 0 are left out. Other libraries:
-2000 runs of each against a ball with the same faults (a duplicate there is a duplicate answer); – was not measured.
+its own seed, so the numbers repeat exactly. The ball is the built-in `sphero-3.73`, which does not report its count of
+packets, as neither recorded robot does. After each upload its storage is compared with the report: *ok* is a true
+success, *reported* a failure whose message describes the ball truly, *wrong* everything else. Counts of 0 are left out.
+The other libraries had 2000 runs each against a ball with the same faults (a duplicate there is a duplicate answer);
+– was not measured.
 
 )",
                        uploads));

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""The page of `orb drive --page` in a headless Chromium: the joystick drives a virtual robot, letting go and closing
-the page stop it, and every sensor has a curve. usage: drive_test.py ORB [PICTURE.png]
+"""Tests the page of `orb drive --page` in a headless Chromium: the joystick drives a virtual robot, releasing it and
+closing the page stop the robot, and every sensor has a curve. usage: drive_test.py ORB [PICTURE.png]
 
-Exits 77 (skipped, to ctest) where no Chromium is installed."""
+Exits with 77 (skipped, to ctest) if Chromium is not installed."""
 
 import os
 import re

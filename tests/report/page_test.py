@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""The page of `orb run --report`, opened in a headless Chromium: it renders, plays and jumps, and
-the numbers on it equal the trace of the same run. usage: page_test.py ORB CHECKOUT
+"""Tests the page of `orb run --report` in a headless Chromium: it renders, plays and jumps, and its
+numbers equal the trace of the same run. usage: page_test.py ORB CHECKOUT
 
-Exits 77 (skipped, to ctest) where no Chromium is installed."""
+Exits with 77 (skipped, to ctest) if Chromium is not installed."""
 
 import copy
 import glob
@@ -197,6 +197,26 @@ class Report(unittest.TestCase):
             text = page.evaluate("document.querySelector('#events .at .words').textContent")
             self.assertEqual(text, prints[i]["text"].rstrip("\n"))
 
+    def test_a_long_list_shows_what_is_near_the_moment(self):
+        program = self.file("many.bas", "10 for A = 1 to 1200\n20 print A\n30 delay 20\n40 next A\n50 RGB 0, 255, 0\n60 delay 20\n")
+        page = self.open(Run(self.folder.name, "many", program, lines=False))
+        rows, at = "document.querySelectorAll('#events [data-kind=print]')", "document.querySelector('#events .at .words')?.textContent"
+        rest = "[...document.querySelectorAll('#events .gap')].map(one => one.textContent)"
+        self.assertEqual(page.evaluate(rest), ["700 events before these"])
+        self.assertEqual(page.evaluate(f"{rows}.length"), 500)
+        page.evaluate("document.querySelector('#events .gap button').click()")
+        self.assertEqual(page.evaluate(at), "700")
+        self.assertEqual(page.evaluate(rest), ["449 events before these", "251 events after these"])
+        page.evaluate("document.querySelector('#events .gap:last-child button').click()")
+        self.assertEqual(page.evaluate(at), "950")
+        page.evaluate(f"{seek}(0)")
+        self.assertEqual(page.evaluate(f"{rows}[0].textContent"), "0.0001")
+        self.assertEqual(page.evaluate(f"[...{rows}].slice(1).every(one => one.parentElement.classList.contains('future'))"), True)
+        page.evaluate(f"{seek}(1e9)")
+        self.assertEqual(page.evaluate(at), "1200")
+        colours = page.evaluate("document.querySelectorAll('#track rect').length")
+        self.assertEqual(colours, 1, "the green at the end is shown, though it is short")
+
     def test_source_lines_jump_to_their_first_run(self):
         page = self.open(self.dance)
         first = next(event["t"] for event in self.dance.of("line") if event["line"] == 210)
@@ -279,6 +299,27 @@ class Report(unittest.TestCase):
         page.evaluate("document.getElementById('play').click()")
         page.key("n")
         page.key("p")
+
+    def test_without_a_program_there_is_no_pane_for_one(self):
+        with open(self.dance.page_path, encoding="utf-8") as file:
+            head, run, tail = re.split(r'(?<=id="run">)(.*?)(?=</script>)', file.read(), maxsplit=1, flags=re.S)
+        data = json.loads(run)
+        data.update(files=[], line={"t": [], "file": [], "line": []}, variables=[])
+        driven = copy.copy(self.dance)
+        driven.page_path = self.file("driven.html", head + json.dumps(data).replace("<", "\\u003c") + tail)
+        hidden = "document.querySelector('.pane.source').offsetParent === null"
+        bottom = lambda name: f"Math.round(document.querySelector('{name}').getBoundingClientRect().bottom)"
+        for width in (1280, 400):
+            page = self.open(driven, width)
+            self.assertTrue(page.evaluate(hidden))
+            self.assertEqual(page.evaluate("[...document.querySelectorAll('#now dt')].filter(one => one.offsetParent).map(one => one.textContent)"), ["at", "speed", "heading", "LED"])
+            self.assertIsNone(page.evaluate("document.getElementById('line-on').offsetParent"))
+            page.key(".")
+        page = self.open(driven)
+        top = lambda name: f"Math.round(document.querySelector('{name}').getBoundingClientRect().top)"
+        self.assertEqual(page.evaluate(top(".events")), page.evaluate(top(".stage")))
+        self.assertEqual(page.evaluate(bottom(".events")), page.evaluate(bottom(".stage")))
+        self.assertFalse(self.open(self.dance).evaluate(hidden))
 
     def test_a_program_that_faults_at_once(self):
         run = Run(self.folder.name, "fault", self.file("fault.bas", "10 print 1/0 '</script><!--\n20 end\n"))
@@ -366,8 +407,7 @@ class Report(unittest.TestCase):
               });
             })()"""), [])
 
-    # How strongly what outlines a stretch stands out from the card, as WCAG counts it; a stroke may be
-    # half transparent.
+    # The contrast of an outline against the card, as WCAG computes it; a stroke may be translucent.
     contrast = """(selector => {
       const channels = text => text.match(/[0-9.]+/g).map(Number);
       const card = channels(getComputedStyle(document.querySelector('.stage')).backgroundColor);

@@ -28,7 +28,7 @@ std::string without_blanks(const std::string& text) {
   return out;
 }
 
-/// The line between "write `" and "`", the `n`th of them.
+/// Returns the `n`th line between "write `" and "`".
 std::vector<std::string> offered(const Diagnostic& finding) {
   std::vector<std::string> lines;
   const auto& help = orb::in_english(finding.help);
@@ -51,7 +51,7 @@ std::string apply(const std::string& text, const orb::Fix& fix) {
   return out;
 }
 
-/// A line as it is offered, in the place of the mistaken one.
+/// Returns the program with the offered line in place of the mistaken one.
 Lines placed(const Lines& program, std::size_t at, std::string line) {
   auto changed = program;
   if (!line.empty() && !std::isdigit(static_cast<unsigned char>(line[0]))) {
@@ -113,7 +113,7 @@ std::string meaning(Language language, const Lines& program) {
     };
     auto bytes = image(text);
     bytes.resize(bytes.find_last_not_of('\0') + 1);
-    // Which numbers lines have is nobody's meaning.
+    // Line numbers carry no meaning.
     const auto lines = orb::compiler::check(bytes, {});
     const auto renumbered = orb::compiler::renumber(lines.program, {10, 10});
     if (const auto* plain = std::get_if<std::string>(&renumbered))
@@ -175,39 +175,39 @@ Judged judge(Language language, const Lines& program, std::size_t at,
     if (source.position(one.span.begin).line == at + 1 &&
         (finding == nullptr || (!is_error(*finding) && is_error(one))))
       finding = &one;
-  for (const auto& one : found) // where a name is used that was misspelt here
+  for (const auto& one : found) // a misspelt name is reported where it is used
     if (finding == nullptr && one.fix && is_meant(split(apply(text, *one.fix))))
-      return {Verdict::Good, orb::in_english(one.help)};
+      return {Grade::Good, orb::in_english(one.help)};
   if (finding == nullptr)
-    return {!meanings.empty() && is_meant(program) ? Verdict::Good
-            : orb::any_error(found)                ? Verdict::Wrong
-                                                   : Verdict::Silent,
+    return {!meanings.empty() && is_meant(program) ? Grade::Good
+            : orb::any_error(found)                ? Grade::Wrong
+                                                   : Grade::Silent,
             found.empty() ? "" : "elsewhere: " + orb::in_english(found[0].message)};
   const auto said =
       fmt::format("{}; {}", orb::in_english(finding->message), orb::in_english(finding->help));
   if (meant.empty())
-    return {finding->help.empty() ? Verdict::Named : Verdict::Good, said};
+    return {finding->help.empty() ? Grade::Named : Grade::Good, said};
   const auto lines = offered(*finding);
   if (finding->fix && is_meant(split(apply(text, *finding->fix))))
-    return {Verdict::Good, said};
+    return {Grade::Good, said};
   for (const auto& line : lines)
     if (is_meant(placed(program, at, line)))
-      return {Verdict::Good, said};
+      return {Grade::Good, said};
   if (is_meant(program))
-    return {Verdict::Good, said};
+    return {Grade::Good, said};
   const bool runs = !lines.empty() && !meaning(language, placed(program, at, lines[0])).empty();
   const bool fixed = finding->fix && !meaning(language, split(apply(text, *finding->fix))).empty();
-  return {runs || fixed ? Verdict::Wrong : Verdict::Named, said};
+  return {runs || fixed ? Grade::Wrong : Grade::Named, said};
 }
 
 Judged follow(Language language, const Lines& program, const std::vector<std::size_t>& at,
               const std::vector<Lines>& meant) {
-  auto first = Judged{Verdict::Silent, ""};
+  auto first = Judged{Grade::Silent, ""};
   for (const auto line : at) {
     const auto judged = judge(language, program, line, meant);
-    if (judged.verdict == Verdict::Good)
+    if (judged.grade == Grade::Good)
       return judged;
-    if (first.verdict == Verdict::Silent)
+    if (first.grade == Grade::Silent)
       first = judged;
   }
   Lines wrong;
@@ -220,13 +220,13 @@ Judged follow(Language language, const Lines& program, const std::vector<std::si
     const auto means = meaning(language, now);
     return !means.empty() && std::find(meanings.begin(), meanings.end(), means) != meanings.end();
   };
-  // All that is offered at once, as it stands on the screen.
+  // Applies all offers of the first check together.
   auto at_once = findings(language, join(program));
   std::erase_if(at_once, [](const Diagnostic& one) { return !one.fix; });
   for (auto& one : at_once)
-    one.fix->safety = orb::Safety::Safe; // as all are taken
+    one.fix->safety = orb::Safety::Safe; // all at once
   if (is_one(split(orb::apply_fixes(join(program), at_once).text)))
-    return {Verdict::Good, first.said};
+    return {Grade::Good, first.said};
   auto lines = program;
   bool moved = true;
   for (std::size_t round = 0; moved && round < 2 * at.size() + 2; ++round) {
@@ -250,11 +250,11 @@ Judged follow(Language language, const Lines& program, const std::vector<std::si
         break;
     }
     if (is_one(lines))
-      return {Verdict::Good, first.said};
+      return {Grade::Good, first.said};
   }
   if (lines != program && !meaning(language, lines).empty())
-    return {Verdict::Wrong, first.said + " => " + join(lines)};
-  return first.verdict == Verdict::Wrong ? Judged{Verdict::Named, first.said} : first;
+    return {Grade::Wrong, first.said + " => " + join(lines)};
+  return first.grade == Grade::Wrong ? Judged{Grade::Named, first.said} : first;
 }
 
 Lines said_of(Language language, const Lines& program) {

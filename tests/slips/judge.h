@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-// What `orb check` says of one mistake, judged by machine: is the line to write right?
+// Judges by machine what `orb check` says about a mistake: is the offered line right?
 
 namespace slips {
 
@@ -17,44 +17,44 @@ using Lines = std::vector<std::string>;
 enum class Language { Basic, Structured, Macro, Test };
 constexpr std::string_view endings[] = {"bas", "orb", "macro", "test"};
 
-enum class Verdict {
-  Good,   ///< the finding on its line offers a line, and with that the program means what was meant
-  Named,  ///< a finding on its line, without the line to write
-  Silent, ///< nothing is said, though the program does something else
-  Wrong,  ///< the line that is offered means something else
+enum class Grade {
+  Good,   ///< a finding on its line offers a line that restores the meaning
+  Named,  ///< a finding on its line, without a line to write
+  Silent, ///< no finding, although the program does something else
+  Wrong,  ///< the offered line means something else
 };
-constexpr std::size_t verdicts = 4;
+constexpr std::size_t grades = 4;
 
 struct Judged {
-  Verdict verdict;
-  std::string said; ///< the finding, for people
+  Grade grade;
+  std::string said; ///< the finding as text
 
-  /// Whether the finding is in the words of a parser, which are left when nothing else fits.
+  /// True if the finding only says what the parser expected, the last resort.
   bool of_parser() const {
     return said.rfind("unexpected ", 0) == 0 || said.rfind("expected ", 0) == 0;
   }
 };
 
-/// Judges a program with a mistake on line `at` (from 0); `meant` are programs as they may have
-/// been meant. None of them: nobody can know, and a finding on the line is good.
+/// Judges a program with a mistake on line `at` (from 0); `meant` lists the programs that the
+/// author may have meant. If it is empty, any finding on the line counts.
 Judged judge(Language language, const Lines& program, std::size_t at,
              const std::vector<Lines>& meant);
 
-/// The same for a program with mistakes on several lines, all of one kind: it is followed, finding
-/// after finding, as a patient beginner would.
+/// The same for a program with several mistakes of one kind: follows one finding after another, as
+/// a patient beginner would.
 Judged follow(Language language, const Lines& program, const std::vector<std::size_t>& at,
               const std::vector<Lines>& meant);
 
-/// What is said of a program, a line for each finding.
+/// Returns the findings about a program, one a line.
 Lines said_of(Language language, const Lines& program);
 
-/// The same in its sentences: what was seen, what helps.
+/// The same as messages: what was seen, what helps.
 std::vector<orb::Message> messages_of(Language language, const Lines& program);
 
-/// All findings about a program.
+/// Returns all findings about a program.
 std::vector<orb::Diagnostic> findings(Language language, const std::string& text);
 
-/// What a program does, as text that can be compared; empty where it has errors.
+/// Returns the effect of a program as comparable text; empty if it has errors.
 std::string meaning(Language language, const Lines& program);
 
 std::string join(const Lines& lines);

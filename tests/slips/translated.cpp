@@ -21,7 +21,7 @@ json findings_of(const std::filesystem::path& path) {
   return json::parse(std::string(std::istreambuf_iterator<char>(in), {})).at("findings");
 }
 
-/// Whether each text of the message has a translation.
+/// True if each text of the message has a translation.
 bool knows(const json& texts, const orb::Message& message) {
   return (message.text() == nullptr || texts.contains(message.text()->english)) &&
          std::all_of(message.fillers().begin(), message.fillers().end(),

@@ -8,27 +8,27 @@
 #include <string>
 #include <vector>
 
-// Whether what beginners are told is said in their language, too.
+// Counts the messages to beginners that are translated.
 
 namespace slips {
 
-/// Messages of findings in English, each with what it is made of, and how often each was said.
+/// Messages of findings by their English, each with its parts and how often it was shown.
 struct Heard {
   std::map<std::string, std::size_t> times;
   std::map<std::string, orb::Message> messages;
   void hear(const orb::Message& message);
 };
 
-/// What the answers say around the findings: how severe, how many, in how many files.
+/// Adds the texts around findings: severity, number, number of files.
 void hear_frame(Heard& heard);
 
 struct Coverage {
-  std::size_t said = 0;       ///< messages, counted as often as they were said
-  std::size_t translated = 0; ///< of these, in every language
-  std::string missing;        ///< the others, a line each
+  std::size_t said = 0;       ///< messages, each as often as it was shown
+  std::size_t translated = 0; ///< of these, translated into every language
+  std::string missing;        ///< the others, one a line
 };
 
-/// Says all that in each language of `translations`.
+/// Translates all messages to each language of `translations`.
 Coverage translate_all(const Heard& heard, const std::filesystem::path& translations);
 
 } // namespace slips

@@ -1,12 +1,12 @@
-// Whether the translations are complete, and say no more and no less than the English: run it after every change of
+// Checks that the translations are complete and match the English: run it after every change of
 // translations/*.json. usage: node tests/translations/check.mjs [ROOT]
-import { readFileSync, readdirSync } from "node:fs";
+import { existsSync, readFileSync, readdirSync } from "node:fs";
 import { join, resolve } from "node:path";
 import { make_catalogue } from "../../playground/page/catalogue.js";
 import { for_page } from "../../playground/task.mjs";
 
 const root = resolve(process.argv[2] ?? "."), read = path => readFileSync(join(root, path), "utf8");
-const sections = ["findings", "verdicts", "page", "blocks", "lessons"];
+const sections = ["findings", "verdicts", "phrases", "page", "blocks", "lessons"];
 const files = readdirSync(join(root, "translations")).filter(name => name.endsWith(".json")).sort();
 const troubles = [];
 const trouble = (where, words) => troubles.push(`${where}: ${words}`);
@@ -31,7 +31,7 @@ for (const section of sections)
     for (const other of sections)
       if (other < section && keys[other].includes(key)) trouble(section, `is in ${other}, too: ${key}`);
 
-// ---- what stands in holes and between backticks is the same; signs are those of the language ----
+// ---- holes and code in backticks must match; punctuation follows the language ----
 const holes = text => (text.match(/\{\w+\}/g) ?? []).sort().join(" ");
 const codes = text => (text.match(/`[^`]*`/g) ?? []).sort().join(" ");
 const count = (text, sign) => text.split(sign).length - 1;
@@ -53,22 +53,23 @@ for (const name of files)
     }
 
 // ---- the lessons: every paragraph, title and name of a test, and nothing else ----
-const lessons = readdirSync(join(root, "examples/lessons")).filter(name => /^\d/.test(name)).map(name => `examples/lessons/${name}`);
+const folders = readdirSync(join(root, "examples/lessons")).filter(name => /^\d/.test(name)).map(name => `examples/lessons/${name}`);
+const lessons = [...folders, ...folders.map(folder => `${folder}/edu`).filter(folder => existsSync(join(root, folder)))];
 const needed = new Set(lessons.flatMap(folder => {
   const [head, ...blocks] = for_page(read(`${folder}/README.md`)).trim().split("\n\n");
   const told = blocks.filter(block => !block.startsWith("    ") || /\S {4,}\S/.test(block));
-  return [head.replace(/^# \d+\. /, ""), ...told, ...[...read(`${folder}/robot.test`).matchAll(/^test "([^"]*)"/gm)].map(([, title]) => title)];
+  return [head.replace(/^# \d+\. /, ""), ...told, ...[...(folder.endsWith("/edu") ? "" : read(`${folder}/robot.test`)).matchAll(/^test "([^"]*)"/gm)].map(([, title]) => title)];
 }));
 for (const text of needed) if (!keys.lessons.includes(text)) trouble("lessons", `nobody has translated: ${text}`);
 for (const text of keys.lessons) if (!needed.has(text)) trouble("lessons", `no lesson says: ${text}`);
 
-// ---- the page and the blocks: what is translated stands in a source (findings: tests/slips) ----
+// ---- the page and the blocks: every key occurs in a source (for findings see tests/slips) ----
 const sources = folder => readdirSync(join(root, folder), { withFileTypes: true }).filter(one => one.isFile() && /\.(m?js|html|cpp|h|def)$/.test(one.name)).map(one => read(`${folder}/${one.name}`));
-const source = ["playground", "playground/page", "playground/page/blocks", "report", "report/page", "run", "base", "spec", "structured/text", "testing", "testing/verdicts", "cli/input", "disk"].flatMap(sources).join("\n");
+const source = ["playground", "playground/page", "playground/page/blocks", "playground/page/edu", "playground/edu", "report", "report/page", "run", "base", "spec", "structured/text", "testing", "testing/verdicts", "cli/input", "disk"].flatMap(sources).join("\n");
 const pieces = key => key.replace(/^1 /, "").split(/\{\w+\}/).map(piece => piece.replace(/^[^\p{L}]+|[^\p{L}]+$/gu, "")).filter(Boolean);
 /** Sentences of verdicts are put together from smaller pieces than those between holes: `1 test` and `passed`. */
 const words = key => pieces(key).flatMap(piece => piece.split(/[^\p{L}]+/u)).filter(Boolean);
-for (const section of ["page", "blocks", "verdicts"])
+for (const section of ["page", "phrases", "blocks", "verdicts"])
   for (const key of keys[section])
     for (const piece of section === "verdicts" ? words(key) : pieces(key)) if (!source.includes(piece)) trouble(section, `no source says “${piece}”: ${key}`);
 

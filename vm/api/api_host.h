@@ -2,8 +2,8 @@
 
 #include "base/time.h"
 #include "vm/body/body.h"
-#include "vm/link.h"
-#include "vm/settings.h"
+#include "vm/common/link.h"
+#include "vm/common/settings.h"
 
 namespace orb::vm {
 
@@ -12,8 +12,8 @@ class Power;
 class Programs;
 class Streamer;
 
-/// All that the API can do to the ball and ask of it, for the client that is connected. Ball
-/// implements it and arbitrates against programs and macros (Actor::Client).
+/// The API's view of the ball: everything a client's commands may read or do. Ball implements it
+/// and arbitrates against programs and macros (Actor::Client).
 class ApiHost {
 public:
   virtual ~ApiHost() = default;
@@ -27,19 +27,19 @@ public:
   virtual const Power& power() const = 0;
   virtual const Settings& settings() const = 0;
 
-  /// Puts these settings into effect.
+  /// Applies the settings.
   virtual void change(const Settings& settings) = 0;
   virtual void drive(const Motion& motion) = 0;
-  /// The application colour; it is also what cmdrgb tells programs.
+  /// Sets the application colour, which programs also read as the colour of cmdrgb.
   virtual void set_led(Color color) = 0;
   virtual void set_back_led(int level) = 0;
-  /// The inactivity timer starts again.
+  /// Restarts the inactivity timer.
   virtual void stay_awake() = 0;
-  /// Falls asleep as soon as the dispatcher has returned.
+  /// Puts the ball to sleep as soon as the dispatcher returns.
   virtual void sleep(const Sleep& sleep) = 0;
-  /// Stops programs, macros, streams and motors, as for the bootloader.
+  /// Stops programs, macros, streams and motors, as a jump to the bootloader does.
   virtual void shut_down() = 0;
-  /// A command has been obeyed and answered: what it led to takes effect.
+  /// Applies the effects of a command. Called once it has been obeyed and answered.
   virtual void command_done() = 0;
 
   void send(const protocol::Async& async) { link().send(async, now()); }

@@ -1,14 +1,14 @@
 #pragma once
 
-// For vm/dispatch_*.cpp only: the handlers of the commands.
+// Private to vm/api/dispatch_*.cpp: declares the command handlers.
 
 #include "vm/api/dispatcher.h"
 #include "vm/api/streamer.h"
+#include "vm/common/power.h"
+#include "vm/machine/programs.h"
 #include "vm/macros/macro_executive.h"
-#include "vm/power.h"
-#include "vm/programs.h"
 
-/// Opens the handler of a command: `HANDLE(Ping) { … }`. It sees `call`.
+/// Opens the handler of a command: `HANDLE(Ping) { … }`. The body may use `call`.
 #define HANDLE(command)                                                                            \
   template <>                                                                                      \
   Dispatcher::Reply Dispatcher::handle<spec::ApiCommand::command>([[maybe_unused]] Call call)

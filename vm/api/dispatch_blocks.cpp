@@ -1,4 +1,4 @@
-// Device 02h: option flags, modes, configuration and soul block.
+// Device 02h: option flags, modes, configuration block and soul block.
 
 #include "base/random.h"
 #include "spec/ball.h"
@@ -22,7 +22,7 @@ std::uint16_t chassis_id(std::uint64_t seed) {
 } // namespace
 
 HANDLE(GetApplicationConfigurationBlock) {
-  return call.answer({ByteView{}}); // nothing was ever stored
+  return call.answer({ByteView{}}); // nothing is ever stored here
 }
 
 HANDLE(ReenableDemoMode) {
@@ -57,7 +57,7 @@ HANDLE(GetTemporaryOptionFlags) {
 HANDLE(GetConfigurationBlock) {
   Bytes block;
   if (call.operands.u8(0) == factory_block) {
-    // What the factory wrote: the settings of a new ball and its chassis id at the end [?].
+    // The factory block: the settings of a new ball, with its chassis id at the end [?].
     block = config_block({}, {});
     block.resize(spec::config_block_size - sizeof(std::uint16_t));
     append_u16(block, chassis_id(seed_));

@@ -1,8 +1,8 @@
-// Device 00h: what every robot of the vendor has.
+// Device 00h: the core commands, which all of the vendor's robots share.
 
 #include "spec/unit.h"
 #include "vm/api/dispatch.h"
-#include "vm/bluetooth.h"
+#include "vm/common/bluetooth.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,14 +15,14 @@ using spec::ResponseCode;
 using namespace spec::ball;
 
 constexpr std::string_view default_name = "Sphero-RGB";
-constexpr std::uint8_t id_colors[] = {1, 2, 3};       // red, green, blue as LEDC counts them [P]
+constexpr std::uint8_t id_colors[] = {1, 2, 3};       // red, green, blue in LEDC's numbering [P]
 constexpr std::string_view address_prefix = "6886E7"; // the vendor's block of Bluetooth addresses
 constexpr auto version_hardware_at =
     spec::answer_offset(spec::ApiCommand::GetVersioning, "hardware");
 constexpr auto version_bootloader_at =
     spec::answer_offset(spec::ApiCommand::GetVersioning, "bootloader");
 
-// The bootloader's record, as it was recorded (REC).
+// The bootloader's record, copied from a recording (REC).
 constexpr std::size_t short_record = 8;
 constexpr std::uint8_t short_record_version = 1;
 
@@ -40,7 +40,7 @@ std::int64_t centivolts(const Body& body) {
 
 } // namespace
 
-/// 24 bits of the seed behind the block of the vendor.
+/// Appends 24 bits of the seed to the vendor's prefix.
 std::string bluetooth_address(std::uint64_t seed) {
   return fmt::format("{}{:06X}", address_prefix, seed % (1U << 24));
 }
@@ -170,7 +170,7 @@ HANDLE(AssignTimeValue) {
 }
 
 HANDLE(PollPacketTimes) {
-  // Received and sent in the same millisecond.
+  // The model receives and answers within the same millisecond.
   const auto clock = host_->link().clock_ms(host_->now());
   return call.answer({call.operands.number(0), clock, clock});
 }

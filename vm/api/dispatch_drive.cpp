@@ -147,7 +147,7 @@ HANDLE(GetRgbLed) {
 
 HANDLE(Roll) {
   const auto speed = call.operands.u8(0);
-  // Without its third value a roll drives, and one of speed 0 brakes (leniency).
+  // Leniency: a roll without its third operand drives, or brakes if its speed is 0.
   const auto go = call.operands.has(2) ? static_cast<Go>(call.operands.u8(2))
                   : speed > 0          ? Go::Drive
                                        : Go::Brake;
@@ -164,7 +164,7 @@ HANDLE(Boost) {
   return {};
 }
 
-/// The boost macro: full speed along the present heading until the bank is empty [?].
+/// Implements the boost macro: full speed along the present heading until the bank is empty [?].
 void Dispatcher::boost(Switch state) {
   const auto heading = wrap_degrees(std::lround(host_->body().heading_setpoint_deg()));
   if (state == Switch::On) {

@@ -12,7 +12,8 @@ using spec::ResponseCode;
 
 using namespace spec::ball;
 
-/// How the ball refuses a command that it knows and does not do (UPLOAD quirk).
+/// The code with which the ball refuses a command that it knows but does not implement (UPLOAD
+/// quirk).
 ResponseCode refusal(spec::Status status) {
   switch (status) {
   case spec::Status::Implemented: return ResponseCode::Ok;
@@ -26,7 +27,7 @@ ResponseCode refusal(spec::Status status) {
 
 } // namespace
 
-/// The handlers in the order of spec::api_commands; null for commands that are refused.
+/// Handlers in the order of spec::api_commands; null for commands that are refused.
 struct Dispatcher::Handlers {
   template <ApiCommand command, spec::Status status>
   static constexpr Handler of() {
@@ -63,7 +64,7 @@ void Dispatcher::take_items() {
   while (const auto item = decoder_.next()) {
     switch (item->kind) {
     case Item::Kind::Command: {
-      // An answer precedes the messages that its command causes.
+      // The answer must leave before any message the command causes.
       host_->link().hold_messages();
       answer(*item, obey(*item));
       host_->command_done();
@@ -126,7 +127,7 @@ Dispatcher::Reply Dispatcher::obey(const Item& item) {
   return (this->*Handlers::find(*row))({*operands, row->command});
 }
 
-// What happens by itself.
+// Timed work.
 
 Instant Dispatcher::next_event() const {
   const auto fragment = decoder_.pending() ? last_byte_ + spec::fragment_timeout : never;
@@ -195,6 +196,7 @@ void Dispatcher::on_sleep() {
   device_mode_ = spec::device_mode::normal;
   accelerometer_range_ = spec::accelerometer_range::g8;
   power_notice_at_ = soul_tick_at_ = gyro_check_at_ = never;
+  consumable_until_ = {};
   soul_messages_ = false;
   gyro_exceeded_ = 0;
 }
@@ -203,7 +205,7 @@ void Dispatcher::on_wake() {
   ++profile_.wake_ups;
   counted_until_ = host_->now();
   host_->link().set_clock_ms(
-      0, host_->now()); // API §Assign Time Value: it starts at zero when the ball wakes up
+      0, host_->now()); // API §Assign Time Value: the clock starts at zero on wake-up
 }
 
 const Profile& Dispatcher::profile() {
@@ -211,7 +213,7 @@ const Profile& Dispatcher::profile() {
   return profile_;
 }
 
-/// The counters of a life have no events of their own.
+/// Updates the lifetime counters. They are computed on demand, so that they need no events.
 void Dispatcher::bring_up_to_date() {
   if (host_->power().asleep())
     return;
@@ -241,7 +243,7 @@ void Dispatcher::tick_soul() {
     host_->send(protocol::make_async(spec::AsyncId::BoostUpdate, {soul.boost()}));
 }
 
-/// Looks for gyro limits only where somebody wants to know and the ball may turn.
+/// Checks for gyro limits only if the client asked for the messages and the ball can be turning.
 void Dispatcher::watch_gyro() {
   const auto wanted = host_->settings().has(spec::permanent_option_flags::gyro_limit_messages);
   gyro_check_at_ = wanted && host_->body().moving() ? host_->now() : never;
@@ -259,7 +261,7 @@ void Dispatcher::check_gyro() {
       exceeded = static_cast<std::uint8_t>(exceeded | bit);
   exceeded = static_cast<std::uint8_t>(exceeded & ~gyro_exceeded_);
   if (exceeded != 0) {
-    // Each axis once, until Set Heading clears the measurements.
+    // Report each axis once, until Set Heading clears the measurements.
     gyro_exceeded_ = static_cast<std::uint8_t>(gyro_exceeded_ | exceeded);
     host_->send(protocol::make_async(spec::AsyncId::GyroLimit, {exceeded}));
   }

@@ -15,36 +15,37 @@
 
 namespace orb::vm {
 
-/// The API: finds packets in what a client sends, obeys them through its host and answers. What a
-/// command takes, and whether it is refused, stands in spec/api.def.
+/// The API: extracts packets from a client's bytes, obeys them through its host and answers.
+/// spec/api.def says which operands a command takes and which commands are refused. Large because
+/// it holds the state that only the API has: counters, profile, notifications, self levelling.
 class Dispatcher {
 public:
   Dispatcher(ApiHost& host, std::uint64_t seed, spec::Firmware firmware);
-  /// A copy that serves another ball.
+  /// Copies the state and serves another ball.
   Dispatcher(const Dispatcher& other, ApiHost& host) : Dispatcher(other) { host_ = &host; }
 
-  /// Bytes from the client, at the host's present instant.
+  /// Takes bytes from the client, at the host's present instant.
   void receive(ByteView bytes);
-  /// What it must do by itself: half packets that time out, power notifications, self levelling,
-  /// soul-block messages.
+  /// Timed work: incomplete packets that time out, power notifications, self levelling, soul-block
+  /// messages.
   Instant next_event() const;
   void run(Instant now);
 
-  // What happens to the ball.
+  // Notifications from the ball.
   void on_disconnect();
   void on_sleep();
   void on_wake();
-  /// The state of the battery changed (power notifications).
+  /// The state of the battery changed: sends a power notification.
   void on_battery();
-  /// A collision was reported (shield).
+  /// A collision was reported: damages the shield.
   void on_collision();
-  /// The ball began to move (experience).
+  /// The ball began to move: starts earning experience and watching gyro limits.
   void on_motion();
 
-  /// The counters of its life are as of now.
+  /// Returns the profile with its lifetime counters up to date.
   const Profile& profile();
   void restore(const Profile& profile) { profile_ = profile; }
-  /// Counts up with every command that changes what outlives a power cycle.
+  /// Grows with every command that changes state kept across power cycles.
   std::uint64_t revision() const { return revision_; }
 
 private:
@@ -54,12 +55,12 @@ private:
     spec::ResponseCode code = spec::ResponseCode::Ok;
     Bytes data;
   };
-  /// A command whose operands have been checked.
+  /// A command whose operands have been validated.
   struct Call {
     const protocol::Operands& operands;
     spec::ApiCommand command;
 
-    /// OK with the fields of the command's answer.
+    /// Answers OK with the fields of the command's response.
     Reply answer(std::initializer_list<protocol::FieldContent> contents) const {
       return {spec::ResponseCode::Ok,
               protocol::write_fields(spec::answer(command), {contents.begin(), contents.size()})};
@@ -80,15 +81,15 @@ private:
   void answer(const protocol::Item& item, const Reply& reply);
   Reply obey(const protocol::Item& item);
 
-  /// What one command does: a specialisation for each implemented row of spec/api.def, without
-  /// which the table of handlers does not link. They stand in vm/dispatch_*.cpp.
+  /// Executes one command. Each implemented row of spec/api.def needs a specialisation
+  /// (vm/api/dispatch_*.cpp); the table of handlers does not link without it.
   template <spec::ApiCommand command>
   Reply handle(Call call);
   using Handler = Reply (Dispatcher::*)(Call call);
   struct Handlers;
 
   std::string level_1();
-  /// What Get Versioning answers: the bootloader knows of itself only.
+  /// The answer to Get Versioning. The bootloader reports only itself.
   Bytes version_record() const;
   /// Starts or ends the boost macro.
   void boost(Switch state);
@@ -123,7 +124,7 @@ private:
   std::uint8_t gyro_exceeded_ = 0;
   int speed_before_boost_ = 0;
 
-  Instant counted_until_{}; ///< how far the counters of a life have come
+  Instant counted_until_{}; ///< the lifetime counters are up to date to here
   bool was_charging_ = false;
 };
 

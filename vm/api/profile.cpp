@@ -10,7 +10,8 @@ namespace {
 
 constexpr std::uint8_t config_version = 1;
 
-/// The range of an operand, so that a block cannot bring in what a command would refuse.
+/// Returns true if the command accepts this operand. A block must not bring in a value that the
+/// command would refuse.
 bool in_range(spec::ApiCommand command, std::size_t operand, std::int64_t value) {
   const auto& field = spec::operands(command)[operand];
   return value >= field.least && value <= field.most;

@@ -9,12 +9,11 @@
 
 namespace orb::vm {
 
-/// The self level routine: waits until pitch and roll have stayed below a limit for a while.
-/// Whoever starts it turns the ball over to it and does what the options want afterwards.
-/// Source: API §Self Level.
+/// The self level routine: waits until pitch and roll stay below a limit for a while. The caller
+/// stops the ball first and carries out the options afterwards. Source: API §Self Level.
 class SelfLevel {
 public:
-  /// The operands of the command; 0 stands for the default.
+  /// The command's operands; 0 means the default.
   struct Request {
     std::uint32_t options = 0;
     std::uint8_t angle_limit_deg = 0;
@@ -25,12 +24,12 @@ public:
   void start(const Request& request, const Body& body, Instant now);
   bool running() const { return next_ != never; }
   void stop() { next_ = never; }
-  /// Whether the request has an option of spec::self_level_options.
+  /// Returns true if the request sets this option of spec::self_level_options.
   bool wants(std::uint32_t option) const { return (request_.options & option) != 0; }
   double first_heading_deg() const { return first_heading_deg_; }
 
   Instant next_event() const { return next_; }
-  /// The result of spec::self_level_result, once it is there.
+  /// Returns a value of spec::self_level_result once the routine has finished.
   std::optional<std::uint8_t> run(Instant now, const Body& body);
 
 private:

@@ -12,11 +12,11 @@
 namespace orb::vm {
 
 /// The game values of the soul block: cores, consumables, banks, levels. The documents name them
-/// and give neither starting values nor costs nor growth: all figures are rows of spec/ball.def
-/// [?]. Source: API §Refill Bank to §Level Up Attribute.
+/// but give no initial values, costs or growth: all figures are rows of spec/ball.def [?]. Source:
+/// API §Refill Bank to §Level Up Attribute.
 class Soul {
 public:
-  /// What changed during a tick, for the messages that clients may ask for.
+  /// What a tick changed. Clients may subscribe to these changes.
   struct Changes {
     bool level = false;
     bool experience = false;
@@ -24,25 +24,26 @@ public:
     bool shield = false;
   };
 
-  /// A bank filled for cores; nothing where there are too few.
+  /// Fills a bank and returns the cores left; nullopt if there are too few.
   std::optional<std::uint32_t> refill(std::uint8_t bank);
-  /// Cores spent on consumables; false where there are too few, or there would be more than 255.
+  /// Buys consumables with cores. Returns false if there are too few cores, or if the count would
+  /// exceed 255.
   bool buy(std::uint8_t consumable, std::uint8_t quantity);
-  /// One consumable less; false when none is left.
+  /// Uses one consumable. Returns false if none is left.
   bool use(std::uint8_t consumable);
 
-  /// Boosting starts only while the bank holds something.
+  /// Starts a boost. Returns false if the bank is empty.
   bool start_boost();
   void stop_boost() { boosting_ = false; }
   bool boosting() const { return boosting_; }
 
-  /// A blow takes a part of the shield. True where there was something to take.
+  /// A blow drains part of the shield. Returns true if the shield changed.
   bool damage_shield();
 
-  /// One tick, due every spec::ball::soul_tick while changing() or while the ball moves: drive time
-  /// earns experience, banks drain and grow back.
+  /// Advances one tick, due every spec::ball::soul_tick while changing() or while the ball moves:
+  /// drive time earns experience, banks drain and regrow.
   Changes tick(bool moving);
-  /// Whether something goes on without the ball moving.
+  /// Returns true if values change even while the ball rests.
   bool changing() const;
 
   std::uint32_t cores() const { return cores_; }
@@ -51,12 +52,12 @@ public:
   std::uint16_t points() const { return points_; }
   std::uint8_t boost() const { return static_cast<std::uint8_t>(boost_); }
   std::uint8_t shield() const { return static_cast<std::uint8_t>(shield_); }
-  /// Progress to the next level, of 255.
+  /// Progress to the next level, 0 to 255.
   std::uint8_t experience() const;
 
-  /// The block of spec::ssb_size bytes; its layout is ours [?] (docs/protocol.md).
+  /// Returns the block of spec::ssb_size bytes, in our own layout [?] (docs/reference/protocol.md).
   Bytes block() const;
-  /// Takes over a block; false, and nothing changed, where it is none of ours.
+  /// Loads a block. Returns false and changes nothing if it has another layout.
   bool load(ByteView block);
 
 private:

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t value_size = 2;
 
-/// What a source measures, in the unit of its row: G, degrees, cm and seconds.
+/// Reads a source in the unit of its row: G, degrees, cm or seconds.
 double sample(spec::StreamSource source, const Body& body, double accelerometer_g) {
   using enum spec::StreamSource;
   using namespace spec::ball;
@@ -80,7 +80,7 @@ void Streamer::start(const Request& request, Instant now) {
   next_ = never;
   if (request_.mask == 0)
     return;
-  // The samples lie on the grid of the control system.
+  // Align samples with the steps of the control system.
   const auto since_step = now.time_since_epoch() % Body::step;
   next_ = now - since_step + Body::step * request_.divisor;
 }

@@ -11,26 +11,26 @@
 namespace orb::vm {
 
 /// Sensor streaming: samples the body every N steps of the control system, after the step of that
-/// instant, and makes messages of the frames. Source: API §Set Data Streaming.
+/// instant, and packs the frames into messages. Source: API §Set Data Streaming.
 class Streamer {
 public:
   struct Request {
-    std::uint32_t divisor = 1;  ///< N: every how many steps of the control system
-    std::uint32_t frames = 1;   ///< M: per packet
-    std::uint64_t mask = 0;     ///< of spec::streams
-    std::uint32_t packets = 0;  ///< how many packets; 0 without end
-    double accelerometer_g = 8; ///< where the accelerometer saturates
+    std::uint32_t divisor = 1;  ///< N: control-system steps per sample
+    std::uint32_t frames = 1;   ///< M: frames per packet
+    std::uint64_t mask = 0;     ///< bits of spec::streams
+    std::uint32_t packets = 0;  ///< number of packets; 0: endless
+    double accelerometer_g = 8; ///< range at which the accelerometer saturates
   };
 
-  /// Whether a packet of the request fits a message.
+  /// Returns true if a packet of the request fits a message.
   static bool fits(const Request& request);
 
-  /// Streams from now on, in place of what was streamed before. A mask without sources stops.
+  /// Starts a stream now and replaces the previous one. A mask without sources stops streaming.
   void start(const Request& request, Instant now);
   void stop() { next_ = never; }
 
   Instant next_event() const { return next_; }
-  /// Takes a sample, where it is time; the message that is full then.
+  /// Takes a sample if one is due. Returns the message if the sample fills it.
   std::optional<protocol::Async> run(Instant now, const Body& body);
 
 private:

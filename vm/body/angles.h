@@ -15,26 +15,31 @@ namespace orb::vm {
 inline constexpr double half_circle = spec::ball::full_circle / 2.0;
 inline constexpr double to_radians = std::numbers::pi / half_circle;
 
-/// A step of the control system.
+/// One step of the control system.
 inline constexpr Duration control_step =
     Duration{std::chrono::seconds{1}} / spec::ball::control_rate;
 inline constexpr double step_s = 1.0 / spec::ball::control_rate;
 
-/// The same direction, 0 <= degrees < 360.
+/// Returns the same direction, 0 <= degrees < 360.
 inline double wrap_360(double degrees) {
   if (0 <= degrees && degrees < spec::ball::full_circle)
-    return degrees; // nearly always: std::fmod costs ten times as much
+    return degrees; // the common case: std::fmod costs ten times as much
   const double wrapped = std::fmod(degrees, static_cast<double>(spec::ball::full_circle));
   return wrapped < 0 ? wrapped + spec::ball::full_circle : wrapped;
 }
 
-/// The shortest way, -180 < way <= 180.
+/// Returns the nearest whole heading, 0 to 359.
+inline int whole_heading(double degrees) {
+  return static_cast<int>(wrap_360(static_cast<double>(std::lround(degrees))));
+}
+
+/// Returns the shortest turn, -180 < turn <= 180.
 inline double shortest_turn(double from_deg, double to_deg) {
   const double way = wrap_360(to_deg - from_deg);
   return way > half_circle ? way - spec::ball::full_circle : way;
 }
 
-/// `value`, moved toward `target` by no more than `most`.
+/// Moves `value` toward `target` by at most `most`.
 inline double toward(double value, double target, double most) {
   return value < target ? std::min(value + most, target) : std::max(value - most, target);
 }

@@ -5,11 +5,11 @@
 
 namespace orb::vm {
 
-/// Who asks. Every ask that can be contended names its actor.
+/// Who makes a request. Every request that may conflict with another names its actor.
 enum class Actor : std::uint8_t { Client, Basic, Macro };
 inline constexpr std::size_t actors = 3;
 
-/// What came of an ask. A client is answered "cannot be done now" where it was refused.
+/// Result of a request. A client whose request is refused gets the answer "cannot be done now".
 enum class Outcome : std::uint8_t { Done, Refused };
 
 } // namespace orb::vm

@@ -4,7 +4,7 @@
 
 namespace orb::vm {
 
-using namespace spec::ball; // the numbers of the model
+using namespace spec::ball; // figures of the model
 
 namespace {
 constexpr double hour_s = std::chrono::seconds{1h}.count();
@@ -44,7 +44,7 @@ Instant Battery::above_until(double volts_wanted, Instant now) const {
   if (charging())
     return never;
   constexpr double fastest = (idle_drain + motion_drain) / hour_s;
-  constexpr double nearly = 0.999; // what the roundings of many steps may amount to
+  constexpr double nearly = 0.999; // margin for the rounding errors of many steps
   const double above = std::max(0.0, volts(now) - volts_wanted);
   return now + Duration{static_cast<Duration::rep>(above / fastest * nearly * 1e9)};
 }

@@ -6,20 +6,21 @@
 
 namespace orb::vm {
 
-/// A voltage at an instant and its slope since; motion takes more.
+/// The battery: its voltage at one instant and the drain since. Motion drains it faster.
 class Battery {
 public:
   explicit Battery(const spec::Battery& range) : range_(range) {}
-  /// What a step of the control system at `speed_cm_s` takes.
+  /// Takes the charge of one control-system step at `speed_cm_s`.
   void drain(double speed_cm_s);
   void set(double volts, Instant now);
   void set_charger(Switch charger, Instant now);
 
   double volts(Instant now) const;
   bool charging() const { return charger_ == Switch::On; }
-  /// When the voltage falls to `volts_wanted` at rest; `never` while charging or below already.
+  /// When the voltage falls to `volts_wanted` at rest; `never` while charging or if it is already
+  /// lower.
   Instant reaches(double volts_wanted, Instant now) const;
-  /// Until when it is above that for sure, however the ball drives.
+  /// The voltage certainly stays above `volts_wanted` until then, however the ball drives.
   Instant above_until(double volts_wanted, Instant now) const;
 
 private:

@@ -4,7 +4,7 @@
 
 namespace orb::vm {
 
-using namespace spec::ball; // the numbers of the model
+using namespace spec::ball; // figures of the model
 
 namespace {
 
@@ -12,7 +12,7 @@ Instant grid_after(Instant now) {
   return now + Body::step - now.time_since_epoch() % Body::step;
 }
 
-/// A speed on the scale of 0 to 255.
+/// Converts a speed to the scale 0 to 255.
 double on_scale(double speed_cm_s) {
   return speed_cm_s / full_speed * greatest;
 }
@@ -57,7 +57,7 @@ std::optional<Impact> Body::take_impact() {
   return impact;
 }
 
-/// Whether the next steps change nothing but its place and its speed.
+/// Returns true if the next steps change nothing but place and speed.
 bool Body::goes_straight_on() const {
   return rolls_freely() && drive_.straight() && !sensors_.falls() && !impact_;
 }
@@ -80,7 +80,7 @@ void Body::single_step() {
 }
 
 void Body::travel() {
-  const auto going = drive_.course(); // a wall changes it
+  const auto going = drive_.course(); // copied before a wall changes it
   Point place{world_.x + going.vx * step_s, world_.y + going.vy * step_s};
   if (walls_.empty()) {
     move_to(place, going.speed * step_s, going.speed);
@@ -94,7 +94,7 @@ void Body::travel() {
 }
 
 void Body::move_to(Point place, double way_cm, double speed) {
-  // The locator sees the same way, turned into its own axes.
+  // The locator adds the same displacement, rotated into its own axes.
   const double dx = place.x - world_.x;
   const double dy = place.y - world_.y;
   rolled_cm_ += way_cm;
@@ -113,7 +113,7 @@ void Body::move_to(Point place, double way_cm, double speed) {
 }
 
 void Body::strike(Point velocity, double speed) {
-  // Into the ball's own axes: y ahead, x to the right.
+  // Rotate into the ball's own axes: y ahead, x to the right.
   const double world = (drive_.yaw_deg() + drive_.world_offset_deg()) * to_radians;
   const double scale = power_per_speed * greatest / full_speed;
   Impact impact;
@@ -138,19 +138,20 @@ Outcome Body::obey(const Motion& motion) {
   return outcome;
 }
 
-// A robot that is elsewhere.
+// A remote robot as the body.
 
-void Body::become(Elsewhere& robot) {
+void Body::become(RemoteBody& robot) {
   robot_ = &robot;
   felt_.emplace();
 }
 
 bool Body::robot_moves() const {
-  constexpr double crawl = 1; // cm/s: less is the noise of the sensors
+  constexpr double crawl = 1; // cm/s: less is sensor noise
   return drive_.is_driven() || vm::length(felt_->velocity_cm_s.x, felt_->velocity_cm_s.y) > crawl;
 }
 
-/// What renames headings is done here: the robot keeps its own.
+/// Passes a motion on with the robot's own heading. Heading names are kept here, because the robot
+/// never renames its own.
 void Body::tell_robot(const Motion& motion) {
   const auto own = [&](Roll roll) {
     const auto heading = std::lround(wrap_360(roll.heading_deg + drive_.world_offset_deg()));
@@ -183,7 +184,7 @@ void Body::push(int heading_deg, int strength) {
   const double direction = heading_deg * to_radians;
   const double speed = full_speed * strength / greatest;
   const Point velocity{speed * vm::sine(direction), speed * vm::cosine(direction)};
-  // A push to the right is a blow on the left side.
+  // A push to the right hits the left side.
   strike({-velocity.x, -velocity.y}, drive_.course().speed);
   drive_.push(velocity);
 }
@@ -199,10 +200,10 @@ void Body::meet(const Shove& shove) {
   drive_.bounce({going.vx + shove.change.x, going.vy + shove.change.y});
 }
 
-/// Out of another ball, but into no wall.
+/// Moves out of another ball, but not into a wall.
 void Body::move_aside(Point shift) {
   Point place{world_.x + shift.x, world_.y + shift.y};
-  auto still = drive_; // that it drives into the wall is for its next step
+  auto still = drive_; // a copy: its next step handles driving into the wall
   if (!walls_.empty())
     walls_.meet(world_, place, still);
   move_to(place, 0, 0);
@@ -227,7 +228,7 @@ Vector3 Body::velocity_cm_s() const {
     return {x * vm::cosine(turned) + y * vm::sine(turned),
             y * vm::cosine(turned) - x * vm::sine(turned), z};
   }
-  if (tare_deg_ == drive_.world_offset_deg()) // the locator has the world's axes
+  if (tare_deg_ == drive_.world_offset_deg()) // the locator's axes are the world's
     return {drive_.course().vx, drive_.course().vy, 0};
   const auto drift = drive_.drift_cm_s();
   const auto own = drive_.own_velocity_cm_s(drive_.yaw_deg() + tare_deg_);

@@ -6,10 +6,10 @@
 #include "vm/body/ask.h"
 #include "vm/body/battery.h"
 #include "vm/body/drivetrain.h"
-#include "vm/body/elsewhere.h"
 #include "vm/body/motion.h"
 #include "vm/body/motion_sensors.h"
 #include "vm/body/place.h"
+#include "vm/body/remote_body.h"
 #include "vm/body/shove.h"
 #include "vm/body/walls.h"
 
@@ -20,66 +20,68 @@ namespace orb::vm {
 
 class Body;
 
-/// Sees a body after each step in which it moved, or strove to.
+/// Observes a body after each step in which it moved or tried to.
 class StepObserver {
 public:
   virtual ~StepObserver() = default;
   virtual void on_step(Instant at, const Body& body) = 0;
 };
 
-/// The ball as matter: set-points in, sensor values out. It knows no program, no packet and no
-/// client. It moves in steps of the control system (400 Hz) on a grid that starts at its power-on,
-/// and only while something moves: at rest, advancing costs nothing. docs/ball.md lists the model;
-/// every figure of it is a row of spec/ball.def. Here are time and place; what moves it, what it
-/// runs into, what it feels and what feeds it are parts of their own in vm/body/.
+/// The ball as matter: set-points in, sensor values out. It knows no program, packet or client. It
+/// moves in steps of the control system (400 Hz) on a grid that starts at power-on, and only while
+/// something moves: advancing a body at rest costs nothing. docs/using/ball.md describes the model;
+/// all its figures are rows of spec/ball.def. This class keeps time and place; drive, walls,
+/// sensors and battery are separate parts in vm/body/. Large because it passes every set-point,
+/// stimulus and sensor value through, so that callers need not know the parts.
 class Body {
 public:
   static constexpr Duration step = Duration{std::chrono::seconds{1}} / spec::ball::control_rate;
 
-  /// `numbers`: how this robot drives; `start`: where it wakes up in its world.
-  /// `robot`: whose battery it has, and whose axes it tells its place in.
+  /// `numbers`: driving characteristics; `start`: place and direction in its world at power-on;
+  /// `robot`: determines the battery and the axes of the reported place.
   explicit Body(std::uint64_t seed, const spec::Driving& numbers = {}, const Placement& start = {},
                 spec::Robot robot = spec::Robot::Sphero);
 
-  /// `observer` sees every step; null: nobody. It must outlive the body.
+  /// Calls `observer` after every step; null: nobody. It must outlive the body.
   void observe(StepObserver* observer) { observer_ = observer; }
 
   // Time.
-  /// Moves on to `now`. Stops at the step in which a blow occurs, so that the caller can tell its
-  /// time; it is called again then. Returns the instant reached.
+  /// Advances to `now`. Stops at a step with a blow, so that the caller sees its time and calls
+  /// again. Returns the instant reached.
   Instant advance_to(Instant now);
   /// The next step in which something moves; `never` at rest.
   Instant next_step() const;
-  /// Whether it takes steps: it moves, or strives to.
+  /// Returns true if the body takes steps: it moves or tries to.
   bool moving() const { return felt_ ? robot_moves() : drive_.moving() || sensors_.falls(); }
-  /// Whether its steps can lead to nothing until somebody asks something of it: it goes on moving,
-  /// there is nothing to run into, and nobody watches. Then it may be advanced late.
+  /// Returns true if its steps have no effect until the next request: it keeps moving, there is
+  /// nothing to hit, and nobody observes it. Such a body may be advanced late.
   bool rolls_freely() const {
     return drive_.strives() && walls_.empty() && observer_ == nullptr && !felt_;
   }
-  /// Whether the last step brought a blow that nobody has taken.
+  /// Returns true if the last step brought a blow not yet taken.
   bool struck() const { return impact_.has_value(); }
-  /// The blow of the last step, once.
+  /// Returns the blow of the last step, once.
   std::optional<Impact> take_impact();
 
-  // Elsewhere.
-  /// From now on a robot is this body: it gets the set-points, and sensors are what it says. It
-  /// must outlive the body. Time passes without steps then.
-  void become(Elsewhere& robot);
-  /// The robot has said this of itself, as of the instant reached.
+  // A remote robot as the body.
+  /// Sends set-points to a remote robot from now on and takes its samples as sensor values. The
+  /// robot must outlive the body. Time then passes without steps.
+  void become(RemoteBody& robot);
+  /// Takes a sample of the robot, as of the instant reached.
   void feel(const Sample& sample);
 
-  /// Wakes up: at rest, heading 0, locator at 0,0, the control system on. The world stays.
+  /// Powers on: at rest, heading 0, locator at 0,0, control system on. The world stays.
   void power_on();
 
   // Set-points.
-  /// Refused where it has no effect: while the control system is off most have none.
+  /// Applies a set-point. Refuses it if it has no effect: most have none while the control system
+  /// is off.
   Outcome obey(const Motion& motion);
   void set_vector_drive(Switch vector_drive) { drive_.set_vector_drive(vector_drive); }
-  /// The speed, 0 to 255, up to which vector drive turns before it moves.
+  /// The highest speed, 0 to 255, at which vector drive still turns before it moves.
   void set_vector_drive_limit(int speed) { drive_.set_vector_drive_limit(speed); }
 
-  // Locator (Source: API §Configure Locator).
+  // Locator. Source: API §Configure Locator.
   void locate(double x_cm, double y_cm) { locator_ = {x_cm, y_cm}; }
   void set_yaw_tare(int tare_deg) { tare_deg_ = tare_deg; }
   void set_tare_correction(Switch correct_on_set_heading) {
@@ -88,17 +90,19 @@ public:
 
   // The world: stimuli.
   void add_wall(const Wall& wall) { walls_.add(wall, world_); }
-  /// A blow that sets the ball moving toward `heading_deg` of the world; strength 0..255.
+  /// Applies a blow that moves the ball toward `heading_deg` of the world; strength 0..255.
   void push(int heading_deg, int strength);
-  /// Other balls press on it, or have run into it. Each knock is felt when it comes: take_impact().
+  /// Applies contact with other balls. The caller reports each knock through feel_blow() and
+  /// take_impact().
   void meet(const Shove& shove);
-  /// It feels a blow of this velocity, cm/s in world axes, and goes at `speed` then.
+  /// Registers a blow of this velocity, cm/s in world axes. `speed` is the ball's own at that
+  /// moment.
   void feel_blow(Point velocity, double speed) { strike(velocity, speed); }
   void shake() { sensors_.shake(now_); }
   /// Free fall for `time`, then a hard landing.
   void toss(Duration time) { sensors_.toss(now_, time); }
   void tilt(double pitch_deg, double roll_deg) { sensors_.tilt(pitch_deg, roll_deg); }
-  /// A hand that turns the ball; the ball yields only while stabilisation is off.
+  /// Turns the ball by hand. It gives way only while stabilisation is off.
   void spin(double deg_per_s) { drive_.spin(deg_per_s); }
   void set_noise(Switch noise) { sensors_.set_noise(noise); }
   void set_battery(double volts) { battery_.set(volts, now_); }
@@ -126,40 +130,41 @@ public:
     return felt_ && felt_->attitude ? *felt_->attitude : sensors_.attitude(movement());
   }
   Pose pose() const;
-  /// The place of pose().
+  /// The place in pose().
   Point locator_cm() const { return locator_; }
-  /// The same, and the velocity, as the robot tells clients.
+  /// The same place, and the velocity, in the axes in which the robot reports them to clients.
   Point told_locator_cm() const { return in_axes(axes_, locator_); }
   Point told_velocity_cm_s() const {
     const auto velocity = velocity_cm_s();
     return in_axes(axes_, {velocity.x, velocity.y});
   }
-  /// The same in its world, in which it woke up at its placement (0,0 facing +Y where it has none),
-  /// whatever the program calls its place and its heading since.
+  /// The pose in its world, where it started at its placement (by default at 0,0 facing +Y).
+  /// Renaming heading or place does not change it.
   Pose world_pose() const;
-  /// Where it is in its world.
+  /// Its place in its world.
   Point place() const { return world_; }
-  /// The same, and where it goes.
+  /// Its place in its world and its velocity.
   Mover mover() const;
-  /// No way of it to be faster at once, whatever it is ordered, cm/s; only time, pushes and blows.
+  /// An upper bound of its present speed, cm/s, whatever it is ordered; only acceleration, pushes
+  /// and blows can exceed it.
   double most_speed_cm_s() const { return drive_.most_speed_cm_s(); }
   Vector3 velocity_cm_s() const; ///< locator axes; z is 0
   double heading_setpoint_deg() const { return drive_.heading_setpoint_deg(); }
   int speed_setpoint() const { return drive_.speed_setpoint(); }
-  /// Whether it is told to move: a speed is ordered, or a motor is on.
+  /// Returns true if it was ordered to move: its target speed is not 0, or a motor is on.
   bool is_driven() const { return drive_.is_driven(); }
-  /// The roll that changes nothing but the speed.
+  /// Returns the roll that changes only the speed.
   Roll roll_at(int speed) const { return drive_.roll_at(speed); }
   double left_motor_cm_s() const { return drive_.left_motor_cm_s(); }
   double right_motor_cm_s() const { return drive_.right_motor_cm_s(); }
   int left_motor_power() const;  ///< -255..255
   int right_motor_power() const; ///< -255..255
   double battery_v() const { return battery_.volts(now_); }
-  /// When the voltage falls to `volts` at rest; `never` while charging or below already.
+  /// When the voltage falls to `volts` at rest; `never` while charging or if it is already lower.
   Instant battery_reaches(double volts) const { return battery_.reaches(volts, now_); }
-  /// Until when it is above that for sure, however the ball drives.
+  /// The voltage certainly stays above `volts` until then, however the ball drives.
   Instant battery_above_until(double volts) const { return battery_.above_until(volts, now_); }
-  /// The length of its way since it was made.
+  /// Distance rolled since construction.
   double way_cm() const { return rolled_cm_; }
   std::uint64_t rolled_cm() const { return static_cast<std::uint64_t>(rolled_cm_); }
   bool charging() const { return battery_.charging(); }
@@ -197,8 +202,8 @@ private:
   double rolled_cm_ = 0;
   std::optional<Impact> impact_;
 
-  Elsewhere* robot_ = nullptr;
-  std::optional<Sample> felt_; ///< of the robot, where there is one
+  RemoteBody* robot_ = nullptr;
+  std::optional<Sample> felt_; ///< the remote robot's last sample, if there is a robot
 };
 
 } // namespace orb::vm

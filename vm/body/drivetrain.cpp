@@ -3,7 +3,7 @@
 
 namespace orb::vm {
 
-using namespace spec::ball; // the numbers of the model
+using namespace spec::ball; // figures of the model
 
 void Drivetrain::power_on() {
   forget_orders();
@@ -19,7 +19,7 @@ void Drivetrain::power_on() {
   vector_drive_limit_ = default_vector_drive_limit;
 }
 
-/// Sends an order on its way. Of two between the same steps the motors see the second.
+/// Queues an order. A second order within the same step replaces the first.
 void Drivetrain::give(Order order) {
   order.due = steps_ + static_cast<std::uint32_t>(numbers_.dead_steps);
   target_speed_ = order.speed;
@@ -33,20 +33,21 @@ void Drivetrain::give(Order order) {
   waiting(waiting_++) = order;
 }
 
-/// The orders whose time has come reach the motors.
+/// Passes the orders that are due to the motors.
 void Drivetrain::take_orders() {
   for (; waiting_ > 0 && waiting(0).due == steps_; --waiting_) {
     const Order order = waiting(0);
     if (order.heading_deg != Order::same_heading)
       aim_deg_ = order.heading_deg;
-    aim_cm_s_ = spec::speed_cm_s(numbers_, order.speed);
+    const double aim = spec::speed_cm_s(numbers_, order.speed);
+    aim_cm_s_ = order.way == Way::Ahead ? aim : -aim;
     go_ = order.go;
     first_ = (first_ + 1) % orders_.size();
   }
   ++steps_;
 }
 
-/// What turns or renames the ball at once outdates the headings on their way, not the speeds.
+/// An immediate turn or renaming invalidates the headings of queued orders, but not their speeds.
 void Drivetrain::forget_headings() {
   for (std::size_t place = 0; place < waiting_; ++place)
     waiting(place).heading_deg = Order::same_heading;
@@ -62,13 +63,14 @@ void Drivetrain::forget_orders() {
 Outcome Drivetrain::obey(const Roll& roll) {
   if (!stabilized_)
     return Outcome::Refused;
-  if (rotate_left_deg_ != 0) // until the order arrives it points where it has turned to
+  if (rotate_left_deg_ != 0) // it holds the heading it has turned to until the order arrives
     aim_deg_ = yaw_deg_;
   rotate_left_deg_ = rotate_rate_ = 0;
   target_deg_ = roll.heading_deg;
   give({.heading_deg = static_cast<std::int16_t>(roll.heading_deg),
         .speed = static_cast<std::uint8_t>(roll.go == Go::Brake ? 0 : roll.speed),
-        .go = roll.go});
+        .go = roll.go,
+        .way = roll.way});
   return Outcome::Done;
 }
 
@@ -213,7 +215,7 @@ void Drivetrain::turn() {
     yaw_deg_ = std::abs(left - turned) < 1e-9 ? aim_deg_ : wrap_360(yaw_deg_ + turned);
   }
   yaw_rate_ = turned * control_rate;
-  // It turns, and what it weighs goes on: the wheels have to bring that round.
+  // The ball turns, but its momentum keeps its direction; the wheels have to bring it round.
   if (stabilized_ && turned != 0 && (forward_ != 0 || slip_ != 0)) {
     const auto& turn = turned_.of(turned);
     const double forward = forward_;
@@ -247,14 +249,14 @@ void Drivetrain::drive() {
   forward_acceleration_ = (forward_ - before) * control_rate;
 }
 
-/// Whether vector drive turns before it moves.
+/// Returns true if vector drive turns before it moves.
 bool Drivetrain::turns_first() const {
   return vector_drive_ == Switch::On &&
          std::abs(forward_) <= full_speed * vector_drive_limit_ / greatest &&
          std::abs(shortest_turn(yaw_deg_, aim_deg_)) > 1;
 }
 
-/// The control system brings the speed nearer to what is ordered.
+/// Brings the speed closer to the ordered speed.
 void Drivetrain::approach() {
   const double target = turns_first() ? 0 : aim_cm_s_;
   if (forward_ == target)
@@ -265,7 +267,7 @@ void Drivetrain::approach() {
   forward_ = toward(forward_, target, rate * step_s);
 }
 
-/// The shell grips the floor: it is pushed the way it points.
+/// The shell grips the floor and loses its sideways speed.
 void Drivetrain::lose_slip() {
   sideways_acceleration_ = forward_ * yaw_rate_ * to_radians;
   if (!stabilized_ && slip_ == 0)

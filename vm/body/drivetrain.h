@@ -11,14 +11,14 @@
 
 namespace orb::vm {
 
-/// Where the ball goes.
-struct Course {
+/// Velocity and speed over ground.
+struct Velocity {
   double vx = 0; ///< cm/s, in world axes
   double vy = 0;
   double speed = 0;
 };
 
-/// Sine and cosine of an angle. Headings stay and turns are alike, so the last answer is kept.
+/// Sine and cosine of an angle. Keeps the last result, because headings and turns repeat.
 class Direction {
 public:
   const Direction& of(double degrees) {
@@ -38,22 +38,23 @@ private:
   double cosine_ = 1;
 };
 
-/// Motors, wheels and the control system: set-points in, heading and speed out, a step of the
-/// control system at a time. It knows neither a place nor a wall. Directions in degrees, clockwise
-/// from +Y; speeds in cm/s.
+/// Motors, wheels and control system: set-points in, heading and speed out, one step of the control
+/// system at a time. It knows neither place nor walls. Directions are degrees clockwise from +Y,
+/// speeds cm/s. Large because each kind of set-point and each quantity of the motion has its own
+/// member.
 class Drivetrain {
 public:
   explicit Drivetrain(const spec::Driving& numbers = {})
       : numbers_(numbers), gain_(1 / numbers.speed_lag) {}
 
-  /// At rest, heading 0 wherever it points, the control system on. What it faces in the world does
-  /// not change.
+  /// Resets to rest, heading 0, control system on. The direction it faces in the world does not
+  /// change.
   void power_on();
 
-  /// Heading 0 points there in the world; before the first step.
+  /// Sets the world direction of heading 0. To be called before the first step.
   void start_facing(double world_deg) { world_offset_deg_ = world_deg; }
 
-  // Set-points. Refused where they have no effect: while the control system is off most have none.
+  // Set-points. Refused if they have no effect: most have none while the control system is off.
   Outcome obey(const Roll& roll);
   Outcome obey(const Rotate& turn);
   Outcome obey(const Motors& motors);
@@ -61,41 +62,41 @@ public:
   Outcome obey(Stabilization mode);
   Outcome obey(const RotationRate& rate);
   Outcome obey(const Stop&);
-  /// Renames the present heading. Returns by how many degrees the names have turned.
+  /// Renames the present heading. Returns the angle in degrees by which the names have turned.
   double rename_heading(int heading_deg);
   void set_vector_drive(Switch vector_drive) { vector_drive_ = vector_drive; }
-  /// The speed, 0 to 255, up to which vector drive turns before it moves.
+  /// The highest speed, 0 to 255, at which vector drive still turns before it moves.
   void set_vector_drive_limit(int speed) { vector_drive_limit_ = speed; }
-  /// A hand that turns the ball; it yields only while stabilisation is off.
+  /// Turns it by hand. It gives way only while stabilisation is off.
   void spin(double deg_per_s) { spin_deg_s_ = deg_per_s; }
-  /// A push adds `velocity`, in world axes.
+  /// Adds `velocity`, in world axes.
   void push(Point velocity);
-  /// A wall leaves nothing but `velocity`, in world axes.
+  /// Replaces all motion by `velocity`, in world axes: a wall leaves nothing else.
   void bounce(Point velocity);
 
-  /// Something that touches it, and is no blow, changes its velocity by `change`, in world axes:
-  /// the wheels go on with what is left, and a ball that they do not drive drifts.
+  /// Adds `change`, in world axes, for contact without a blow: the wheels keep driving at the
+  /// changed speed, and a ball at rest drifts.
   void press(Point change);
 
-  /// A step of the control system: turns, speeds up or slows down.
+  /// Takes one step of the control system: turns, accelerates or brakes.
   void step();
-  /// It faces there, because somebody else turned it; the set-point stays.
+  /// Sets the yaw after somebody else turned it; the set-point stays.
   void face(double yaw_deg) { yaw_deg_ = yaw_deg; }
-  /// No step is taken: nothing accelerates.
+  /// Clears rates and accelerations, because no step is taken.
   void rest() { yaw_rate_ = forward_acceleration_ = sideways_acceleration_ = 0; }
-  /// Whether a step changes anything: it moves, or strives to.
+  /// Returns true if a step changes anything: it moves or tries to.
   bool moving() const {
     return target_speed_ != 0 || waiting_ != 0 || aim_cm_s_ != 0 || forward_ != 0 || slip_ != 0 ||
            drifts() || rotate_left_deg_ != 0 || left_wheel_ != 0 || right_wheel_ != 0 ||
            (stabilized_ && aim_deg_ != yaw_deg_) || (!stabilized_ && spin_deg_s_ != 0) ||
            (raw_ && (left_.power != 0 || right_.power != 0));
   }
-  /// Whether it goes straight ahead, and steps change nothing but its place and its speed.
+  /// Returns true if it goes straight ahead, so that steps change only place and speed.
   bool straight() const {
     return stabilized_ && waiting_ == 0 && yaw_deg_ == aim_deg_ && rotate_left_deg_ == 0 &&
            slip_ == 0 && !drifts();
   }
-  /// A step while it is straight(): exactly what step() does then.
+  /// Takes a step while straight(); the result is exactly that of step().
   void step_straight() {
     yaw_rate_ = sideways_acceleration_ = 0;
     const double before = forward_;
@@ -104,11 +105,11 @@ public:
   }
   bool rolls() const { return forward_ != 0 || slip_ != 0 || drifts(); }
   bool strives() const { return target_speed_ != 0; }
-  /// Whether it is told to move: a speed is ordered, or a motor is on.
+  /// Returns true if it was ordered to move: its target speed is not 0, or a motor is on.
   bool is_driven() const { return strives() || is_on(left_) || is_on(right_); }
   bool stopped() const;
 
-  Course course() const {
+  Velocity course() const {
     const auto own = own_velocity_cm_s(yaw_deg_ + world_offset_deg_);
     if (slip_ == 0 && !drifts())
       return {own.x, own.y, std::abs(forward_)};
@@ -116,10 +117,10 @@ public:
     const double vy = own.y + drift_y_;
     return {vx, vy, std::sqrt(vx * vx + vy * vy)};
   }
-  /// Its speed where wheels and drift pull the same way: only acceleration, pushes and blows lead
-  /// beyond it.
+  /// Its speed if wheels and drift pulled the same way: an upper bound that only acceleration,
+  /// pushes and blows can exceed.
   double most_speed_cm_s() const {
-    // Not std::hypot(), which takes five times as long to be exact in the last bit.
+    // Not std::hypot(): it is exact to the last bit and takes five times as long.
     return std::sqrt(forward_ * forward_ + slip_ * slip_) +
            std::sqrt(drift_x_ * drift_x_ + drift_y_ * drift_y_);
   }
@@ -129,16 +130,16 @@ public:
   double world_offset_deg() const { return world_offset_deg_; } ///< world direction = yaw + offset
   double forward_acceleration_cm_s2() const { return forward_acceleration_; }
   double sideways_acceleration_cm_s2() const { return sideways_acceleration_; } ///< to the right
-  /// What the wheels and its momentum make of it, for somebody who calls the heading `way_deg`.
+  /// Velocity by wheels and momentum, without drift, in axes where the heading is `way_deg`.
   Point own_velocity_cm_s(double way_deg) const {
     const auto& way = way_.of(way_deg);
     return {forward_ * way.sine() + slip_ * way.cosine(),
             forward_ * way.cosine() - slip_ * way.sine()};
   }
-  Point drift_cm_s() const { return {drift_x_, drift_y_}; } ///< what pushes and bounces add
+  Point drift_cm_s() const { return {drift_x_, drift_y_}; } ///< due to pushes and bounces
   double heading_setpoint_deg() const { return target_deg_; }
   int speed_setpoint() const { return target_speed_; }
-  /// The roll that changes nothing but the speed.
+  /// Returns the roll that changes only the speed.
   Roll roll_at(int speed) const;
   double left_motor_cm_s() const { return raw_ ? left_wheel_ : forward_; }
   double right_motor_cm_s() const { return raw_ ? right_wheel_ : forward_; }
@@ -147,10 +148,11 @@ private:
   /// An order on its way to the motors.
   struct Order {
     static constexpr std::int16_t same_heading = -1;
-    std::uint32_t due = 0; ///< of `steps_`
+    std::uint32_t due = 0; ///< in `steps_`
     std::int16_t heading_deg = same_heading;
     std::uint8_t speed = 0;
     Go go = Go::Brake;
+    Way way = Way::Ahead;
   };
   void give(Order order);
   void take_orders();
@@ -167,40 +169,40 @@ private:
   void lose_drift();
 
   bool stabilized_ = true;
-  bool raw_ = false; ///< the motors are driven by Motors
+  bool raw_ = false; ///< driven by raw motor values (Motors)
   Switch vector_drive_ = Switch::Off;
   int vector_drive_limit_ = spec::ball::default_vector_drive_limit;
-  int target_speed_ = 0; ///< as ordered last
+  int target_speed_ = 0; ///< of the last order
   double target_deg_ = 0;
-  Go go_ = Go::Brake; ///< what the motors strive for: the order of a dead time ago
+  Go go_ = Go::Brake; ///< what the motors do now: an order reaches them after the dead time
   double aim_cm_s_ = 0;
   double aim_deg_ = 0;
-  /// A ring: orders between two steps become one, so there are no more than steps of dead time.
+  /// A ring. Orders within one step are merged, so there is at most one per step of dead time.
   std::array<Order, spec::most_dead_steps + 1> orders_{};
   std::size_t first_ = 0;
   std::size_t waiting_ = 0;
   std::uint32_t steps_ = 0;
   double rotation_rate_ = spec::ball::default_rotation_rate;
-  double rotate_left_deg_ = 0; ///< what is left of a Rotate
+  double rotate_left_deg_ = 0; ///< rest of a Rotate
   double rotate_rate_ = 0;
   Motor left_;
   Motor right_;
   double yaw_deg_ = 0;
   double world_offset_deg_ = 0;
   double forward_ = 0;
-  double slip_ = 0; ///< to the right: the way it still goes while it already points elsewhere
+  double slip_ = 0; ///< to the right: sideways speed that momentum keeps after a turn
   double left_wheel_ = 0;
   double right_wheel_ = 0;
   double drift_x_ = 0; ///< in world axes
   double drift_y_ = 0;
-  mutable Direction way_; ///< of the last call of own_velocity_cm_s()
-  Direction turned_;      ///< in the last step
+  mutable Direction way_; ///< cached by own_velocity_cm_s()
+  Direction turned_;      ///< cached by turn()
   double yaw_rate_ = 0;
   double forward_acceleration_ = 0;
   double sideways_acceleration_ = 0;
   double spin_deg_s_ = 0;
   spec::Driving numbers_;
-  double gain_; ///< of the approach to an ordered speed, per second
+  double gain_; ///< rate of approach to the ordered speed, per second
 };
 
 } // namespace orb::vm

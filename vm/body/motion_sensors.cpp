@@ -5,7 +5,7 @@
 
 namespace orb::vm {
 
-using namespace spec::ball; // the numbers of the model
+using namespace spec::ball; // figures of the model
 
 void MotionSensors::shake(Instant now) {
   shaken_until_ = now + shake_time;
@@ -67,7 +67,7 @@ Vector3 MotionSensors::rotation_deg_s(const Movement& movement) const {
 }
 
 Quaternion MotionSensors::attitude(const Movement& movement) const {
-  // Headings count clockwise, quaternions counter-clockwise about Z.
+  // Headings grow clockwise, quaternions counter-clockwise about Z.
   const double yaw = -movement.yaw_deg * to_radians / 2;
   const double pitch = pitch_deg(movement) * to_radians / 2;
   const double roll = roll_deg(movement.at) * to_radians / 2;
@@ -81,7 +81,7 @@ Quaternion MotionSensors::attitude(const Movement& movement) const {
 double MotionSensors::noise(std::uint32_t channel, Instant now) const {
   if (noise_ == Switch::Off)
     return 0;
-  // A value of its own for each channel in each step of the control system.
+  // One value per channel and control-system step, so that repeated reads agree.
   Random random{seed_ + Random::stride * channel +
                 static_cast<std::uint64_t>(now.time_since_epoch() / control_step)};
   return static_cast<double>(random.next() >> 11) * 0x1p-53 * 2 - 1; // -1 to 1 from 53 bits

@@ -8,7 +8,7 @@
 
 namespace orb::vm {
 
-/// How the drive moves the ball at an instant: what accelerometer and gyro feel of it.
+/// Motion of the ball at an instant, as far as accelerometer and gyro sense it.
 struct Movement {
   Instant at{};
   double yaw_deg = 0;
@@ -17,7 +17,7 @@ struct Movement {
   double sideways_acceleration_cm_s2 = 0; ///< to the right
 };
 
-/// Accelerometer and gyro, and what a hand does to them: shakes, tosses, tilts, noise.
+/// Accelerometer and gyro, and what hands do to them: shakes, tosses, tilts, noise.
 class MotionSensors {
 public:
   explicit MotionSensors(std::uint64_t seed) : seed_(seed) {}
@@ -27,12 +27,12 @@ public:
   void toss(Instant now, Duration time);
   void tilt(double pitch_deg, double roll_deg);
   void set_noise(Switch noise) { noise_ = noise; }
-  /// A blow at `now`.
+  /// Registers a blow at `now`.
   void strike(Instant now);
 
-  /// Whether a landing is to come.
+  /// Returns true while a landing is pending.
   bool falls() const { return landing_; }
-  /// Lands where the fall is over.
+  /// Lands if the fall is over.
   void step(Instant now);
 
   double pitch_deg(const Movement& movement) const; ///< -90..90

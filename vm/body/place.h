@@ -21,7 +21,7 @@ struct Quaternion {
   double z = 0;
 };
 
-/// Where the ball is: locator coordinates, heading as commanded, speed over ground.
+/// Locator coordinates, heading as commanded, speed over ground.
 struct Pose {
   double x_cm = 0;
   double y_cm = 0;
@@ -29,8 +29,7 @@ struct Pose {
   double speed_cm_s = 0;
 };
 
-/// A place in centimetres; where nothing else is said, of the world in which the ball woke up at
-/// 0,0 facing +Y.
+/// A place in centimetres. By default in the world where the ball started at 0,0 facing +Y.
 struct Point {
   double x = 0;
   double y = 0;
@@ -38,7 +37,7 @@ struct Point {
   friend constexpr bool operator==(Point, Point) = default;
 };
 
-/// A place or a velocity, x to the right and y ahead, in a robot's own axes; and back.
+/// Convert a place or velocity (x to the right, y ahead) to a robot's own axes, and back.
 constexpr Point in_axes(spec::Axes axes, Point p) {
   return axes == spec::Axes::AheadLeft ? Point{p.y, -p.x} : p;
 }
@@ -46,7 +45,8 @@ constexpr Point from_axes(spec::Axes axes, Point p) {
   return axes == spec::Axes::AheadLeft ? Point{-p.y, p.x} : p;
 }
 
-/// Where a ball starts in its world, and which way it faces there: degrees clockwise from +Y.
+/// The starting place of a ball in its world and the direction it faces, in degrees clockwise from
+/// +Y.
 struct Placement {
   Point place;
   double facing_deg = 0;
@@ -54,31 +54,31 @@ struct Placement {
   friend constexpr bool operator==(const Placement&, const Placement&) = default;
 };
 
-/// A straight wall: endless at `x=` or `y=`, or between two points.
+/// A straight wall: infinite at `x=` or `y=`, or between two points.
 struct Wall {
   enum class Axis : std::uint8_t { X, Y, None };
   Axis axis = Axis::X;
-  double at_cm = 0; ///< of an endless one
-  Point from{};     ///< of one along no axis
+  double at_cm = 0; ///< of an infinite wall
+  Point from{};     ///< of a wall between two points
   Point to{};
 
   static constexpr Wall between(Point from, Point to) { return {Axis::None, 0, from, to}; }
   friend constexpr bool operator==(const Wall&, const Wall&) = default;
 };
 
-/// `x=70`, or `-30,50 to 30,50` of a wall between two points.
+/// Returns `x=70`, or `-30,50 to 30,50` for a wall between two points.
 std::string to_string(const Wall& wall);
 
-/// The point of a wall between two points that is nearest to `place`.
+/// Returns the point of a wall between two points that is nearest to `place`.
 Point nearest_point(const Wall& wall, Point place);
 
-/// A blow as the accelerometer sees it: positive y is a blow on the front, positive x one on the
-/// right (Source: LL §Collision Detection).
+/// A blow as the accelerometer senses it: positive y hits the front, positive x the right (Source:
+/// LL §Collision Detection).
 struct Impact {
   double x_power = 0; ///< compared with the thresholds of the X axis
   double y_power = 0;
   int speed = 0;            ///< 0..255 at the moment of the blow
-  std::optional<Wall> wall; ///< what it ran into; nothing for a push
+  std::optional<Wall> wall; ///< the wall it hit; nullopt for a push
 };
 
 } // namespace orb::vm

@@ -8,13 +8,13 @@
 
 namespace orb::vm {
 
-/// Tells a double shake from the samples of an accelerometer: it is jerked to one side and, within
-/// the time that a shake of the virtual ball lasts, to the other.
+/// Detects a double shake in accelerometer samples: a jerk to one side and, within the time that a
+/// shake of the virtual ball lasts, one to the other.
 class ShakeSense {
 public:
-  /// A sample, in g, at an instant. Whether a double shake has just been completed.
+  /// Takes a sample in g. Returns true if it completes a double shake.
   bool feel(const Vector3& felt_g, Instant now) {
-    constexpr double jerk_g = spec::ball::shake_g / 2; // that it lies still adds 1 g at most
+    constexpr double jerk_g = spec::ball::shake_g / 2; // gravity adds at most 1 g
     if (felt_g.x * felt_g.x + felt_g.y * felt_g.y + felt_g.z * felt_g.z <
         (1 + jerk_g) * (1 + jerk_g))
       return false;
@@ -29,7 +29,7 @@ private:
     return a.x * b.x + a.y * b.y + a.z * b.z;
   }
 
-  std::optional<Vector3> jerk_; ///< the last
+  std::optional<Vector3> jerk_; ///< the last jerk
   Instant at_{};
 };
 

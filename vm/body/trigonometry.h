@@ -1,7 +1,7 @@
 #pragma once
 
-// Trigonometry by operations that every processor rounds alike. What C libraries answer differs in
-// the last bit, and a drive of a minute multiplies that: this way a trace is the same on Linux, on
+// Trigonometry built only from operations that every processor rounds alike. C libraries differ in
+// the last bit, and a minute of driving magnifies that; with this a trace is the same on Linux, on
 // Windows and in a browser.
 
 #include <cmath>
@@ -10,11 +10,10 @@ namespace orb::vm {
 
 namespace series {
 
-/// The sum of (-1)^n x^(2n+k) / (2n+k)! for small x, k being 0 or 1.
+/// Sums (-1)^n x^(2n+k) / (2n+k)! for small x; k is 0 or 1.
 template <int k>
 constexpr double alternating(double x) {
-  constexpr int terms =
-      9; // the tenth is below the last bit where |x| is at most a quarter turn's half
+  constexpr int terms = 9; // the tenth is below the last bit for |x| up to an eighth of a turn
   double sum = 1;
   for (int n = terms; n > 0; --n) {
     const double i = 2 * n + k;
@@ -23,15 +22,15 @@ constexpr double alternating(double x) {
   return k == 0 ? sum : x * sum;
 }
 
-/// An angle as a number of quarter turns and what is left, at most half a one.
+/// An angle as a number of quarter turns and a rest of at most half a quarter.
 struct Quarters {
   int turned;
   double left;
 };
 inline Quarters quarters_of(double radians) {
   constexpr double quarter =
-      0x1.921fb544p0; // of a turn, its first 33 bits: products with small numbers are exact
-  constexpr double rest = 0x1.0b4611a626331p-34;      // what lacks of it
+      0x1.921fb544p0; // the first 33 bits of a quarter turn: products with small integers are exact
+  constexpr double rest = 0x1.0b4611a626331p-34;      // the remaining bits of a quarter turn
   constexpr double per_radian = 0x1.45f306dc9c883p-1; // 2 / pi
   constexpr double half = 0.5;
   const double n = std::floor(radians * per_radian + half);
@@ -40,7 +39,7 @@ inline Quarters quarters_of(double radians) {
 
 } // namespace series
 
-/// Sine and cosine of an angle in radians, |angle| below 10^6; off by an ulp or two at most.
+/// Sine and cosine of an angle in radians, |angle| below 10^6. The error is an ulp or two at most.
 inline double sine(double radians) {
   const auto [turned, left] = series::quarters_of(radians);
   const double value =
@@ -54,14 +53,14 @@ inline double cosine(double radians) {
   return turned == 0 || turned == 3 ? value : -value;
 }
 
-/// The angle in radians whose tangent is y / x, for x above 0.
+/// Returns the angle in radians whose tangent is y / x, for x above 0.
 inline double arctangent(double y, double x) {
-  constexpr double bend = 0.28; // of a first guess that is good to a hundredth
+  constexpr double bend = 0.28; // of a first guess that is accurate to a hundredth
   const double slope = y / x;
   const bool steep = std::abs(slope) > 1;
   const double flat = steep ? 1 / slope : slope;
   double angle = flat / (1 + bend * flat * flat);
-  for (int i = 0; i < 3; ++i) { // Newton: each doubles the digits
+  for (int i = 0; i < 3; ++i) { // Newton: each round doubles the digits
     const double s = sine(angle);
     const double c = cosine(angle);
     angle -= (s - flat * c) / (c + flat * s);
@@ -70,7 +69,7 @@ inline double arctangent(double y, double x) {
   return !steep ? angle : (slope > 0 ? quarter : -quarter) - angle;
 }
 
-/// The length of a way of a few metres: nothing overflows that std::hypot() would have to mind.
+/// Length of a vector of a few metres. It cannot overflow, so std::hypot() is not needed.
 inline double length(double x, double y) {
   return std::sqrt(x * x + y * y);
 }

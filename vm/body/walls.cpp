@@ -7,7 +7,7 @@
 
 namespace orb::vm {
 
-using namespace spec::ball; // the numbers of the model
+using namespace spec::ball; // figures of the model
 
 std::string to_string(const Wall& wall) {
   switch (wall.axis) {
@@ -31,8 +31,8 @@ Point nearest_point(const Wall& wall, Point place) {
 
 namespace {
 
-/// What a wall leaves of a speed into it: the way along it, and a share of the way back. `normal`
-/// points from the wall to the ball.
+/// Removes the speed into a wall: keeps the part along it and turns back a share of the rest.
+/// `normal` points from the wall to the ball.
 void bounce(const Wall& wall, Point normal, Drivetrain& drive, std::optional<Blow>& blow) {
   const auto going = drive.course();
   const double into = going.vx * normal.x + going.vy * normal.y;
@@ -82,7 +82,7 @@ void Walls::hit_endless(Point& place, Drivetrain& drive, std::optional<Blow>& bl
     const bool hard = std::abs(speed) >= least_blow;
     if (hard)
       blow = {across_x ? speed : 0, across_x ? 0 : speed, drive.course().speed, wall};
-    // What the wall leaves: the way along it, and a share of the way back.
+    // Keeps the velocity along the wall and turns back a share of the rest.
     const double back = hard ? -restitution * speed : 0;
     drive.bounce(across_x ? Point{back, going.vy} : Point{going.vx, back});
   }
@@ -94,20 +94,20 @@ void Walls::hit_segments(Point from, Point& place, Drivetrain& drive, std::optio
     clear_cm_ -= way;
     return;
   }
-  // In pieces so short that none of them jumps over a wall.
+  // Pieces short enough that none jumps over a wall.
   const double pieces = std::ceil(way / (radius / 2));
   const Point piece{(place.x - from.x) / pieces, (place.y - from.y) / pieces};
   place = from;
   for (double done = 0; done < pieces; ++done) {
     place = {place.x + piece.x, place.y + piece.y};
     if (push_out(from, place, drive, blow))
-      break; // what is left of the step is lost in the blow
+      break; // the blow consumes the rest of the step
   }
 }
 
-/// Moves a ball that reaches into walls out of them. True where it touched one.
+/// Moves the ball out of the walls it overlaps. Returns true if it touched one.
 bool Walls::push_out(Point from, Point& place, Drivetrain& drive, std::optional<Blow>& blow) {
-  constexpr int most_rounds = 4; // out of one wall of a corner, it may be in the other
+  constexpr int most_rounds = 4; // leaving one wall of a corner may lead into the other
   constexpr double touch = radius - 1e-9;
   bool touched = false;
   for (int round = 0; round < most_rounds; ++round) {
@@ -127,7 +127,7 @@ bool Walls::push_out(Point from, Point& place, Drivetrain& drive, std::optional<
     if (nearest >= touch)
       return touched;
   }
-  place = from; // a corner too narrow for the ball: it stays where it was
+  place = from; // a corner too narrow for the ball: it stays at its old place
   return true;
 }
 

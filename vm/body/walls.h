@@ -8,7 +8,8 @@
 
 namespace orb::vm {
 
-/// A blow against a wall: the speed into it, cm/s in world axes, and how fast the ball was then.
+/// A blow against a wall: the velocity into it, cm/s in world axes, and the ball's speed at that
+/// moment.
 struct Blow {
   double vx = 0;
   double vy = 0;
@@ -16,14 +17,14 @@ struct Blow {
   Wall wall;
 };
 
-/// What the ball can run into.
+/// The walls of the world.
 class Walls {
 public:
-  /// `ball` is where the ball is now: on which side it stays.
+  /// Adds a wall. `ball` is the ball's present place, which determines the side it stays on.
   void add(const Wall& wall, Point ball);
   bool empty() const { return endless_.empty() && segments_.empty(); }
-  /// On the way from `from` to `place`: moves `place` out of the walls, turns the drive back, and
-  /// says what blow that was, if one.
+  /// Moves from `from` to `place`: keeps `place` out of the walls and turns the drive back. Returns
+  /// the blow, if there was one.
   std::optional<Blow> meet(Point from, Point& place, Drivetrain& drive);
 
 private:
@@ -33,11 +34,11 @@ private:
 
   struct Obstacle {
     Wall wall;
-    double side; ///< +1 or -1: where the ball was when the wall appeared
+    double side; ///< +1 or -1: the side of the ball when the wall appeared
   };
   std::vector<Obstacle> endless_;
   std::vector<Wall> segments_; ///< between two points
-  double clear_cm_ = 0;        ///< so far it can go before it may touch one of these
+  double clear_cm_ = 0;        ///< distance the ball can certainly go before it touches a segment
 };
 
 } // namespace orb::vm

@@ -17,14 +17,15 @@ using spec::Variable;
 
 constexpr auto print_bytes = static_cast<std::size_t>(spec::value_of(Limit::PrintBytes));
 constexpr std::int32_t timer_values = spec::info(Variable::TimerA).greatest + 1;
-/// What is printed in place of a text that is too long; no document has the robot's words [?].
+/// Printed instead of a text that is too long. No document gives the robot's wording [?].
 constexpr std::string_view too_long = "(print exceeds 32 bytes)\n";
 
 constexpr bool within(const spec::Parameter& parameter, std::int32_t value) {
   return parameter.least <= value && value <= parameter.greatest;
 }
 
-/// What a lenient ball makes of a value out of range; nothing: it stops at it, too.
+/// Returns what a lenient ball makes of a value out of range; nullopt if it refuses the
+/// value too.
 std::optional<std::int32_t> bent(Statement statement, const spec::Parameter& parameter,
                                  std::int32_t value) {
   if (statement == Statement::Rgb)
@@ -39,7 +40,7 @@ std::size_t timer_number(Variable variable) {
   return static_cast<std::size_t>(variable) - static_cast<std::size_t>(Variable::TimerA);
 }
 
-/// Lamps change nothing that happens later, so the program need not pause for the ball to look.
+/// Lamps affect no later event, so the program need not pause for the ball.
 bool only_lights(Statement statement) {
   return statement == Statement::Rgb || statement == Statement::Ledc ||
          statement == Statement::BackLed;
@@ -52,8 +53,7 @@ bool is_timer(Variable variable) {
          variable == Variable::TimerC;
 }
 
-// --- slow operations
-// ------------------------------------------------------------------------------
+// --- slow operations ------------------------------------------------------------------------
 
 Then Core::read_system(const Code& instruction) {
   const auto variable = static_cast<Variable>(instruction.b);
@@ -87,7 +87,7 @@ Then Core::square_root(const Code& instruction) {
   const std::int32_t value = registers[instruction.b];
   if (value < 0)
     return fail(BasicError::BadNumericParameter);
-  // 31 bits are exact in a double, and IEEE rounds the root correctly.
+  // A double holds 31 bits exactly, and IEEE rounds the root correctly.
   registers[instruction.a] = static_cast<std::int32_t>(std::sqrt(static_cast<double>(value)));
   return Then::Next;
 }
@@ -117,7 +117,7 @@ Then Core::print(PrintEnd end) {
   const auto again = host->print(text, now);
   if (!again) {
     text.clear();
-    return Then::Leave; // whoever watches the output may want to stop here
+    return Then::Leave; // an observer of the output may want to stop here
   }
   pending = std::move(text);
   text.clear();

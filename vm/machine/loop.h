@@ -1,19 +1,18 @@
-// The loop that runs orbBasic: one block per instruction of bytecode/op.def. Included once by
-// threaded.cpp and once by switch.cpp, inside a function that has a Core& core;
-// they define
+// The loop that runs orbBasic: one block per instruction of bytecode/op.def. threaded.cpp and
+// switch.cpp each include it once, inside a function with a Core& core. They define
 //   OP(name)       begins the block of an instruction
-//   OP_LINE(name)  begins its block where it ends the line, for those that may or may not
-//   DISPATCH()     goes to the block of `pc`
+//   OP_LINE(name)  begins the block of an instruction that ends its line
+//   DISPATCH()     jumps to the block of `pc`
 //
-// A line ends with NEXT_LINE: one count down, one compare. Everything that can happen besides
-// (other parts of the ball, the end of `--for`, tracing) is part of that budget.
+// NEXT_LINE ends a line at the cost of one decrement and one compare. Everything else that may
+// happen (other parts of the ball, the end of `--for`, tracing) is folded into that budget.
 //
-// Measured without gain (speed of the kernels of `./dev bench` against without): `-O3` 0.97;
-// `(b + c) & d` in one instruction 1.00; no counting of lines after operations 1.00; instructions
-// of 32 bytes instead of 24 1.00; the following line as an index 0.99; the number of open calls in
-// a register 1.04 for subroutines, 0.93 for the sort; a jump instead of a conditional move 0.87 for
-// branches; no alignment of blocks, blocks in text order, `-fno-tree-pre` 0.98 to 1.00; an unsigned
-// index into Z 1.00.
+// Optimisations tried without gain (speed of the kernels of `./dev bench` relative to without):
+// `-O3` 0.97; `(b + c) & d` in one instruction 1.00; no counting of lines after operations 1.00;
+// instructions of 32 bytes instead of 24 1.00; the following line as an index 0.99; the number of
+// open calls in a register 1.04 for subroutines, 0.93 for the sort; a jump instead of a conditional
+// move 0.87 for branches; no alignment of blocks, blocks in text order, `-fno-tree-pre` 0.98 to
+// 1.00; an unsigned index into Z 1.00.
 
 using bytecode::element_by_index;
 using bytecode::element_count;
@@ -35,7 +34,7 @@ const std::int64_t* const reciprocal = core.reciprocals.data();
     DISPATCH();                                                                                    \
   } while (false)
 
-// The line ends, and the one after it in the text is next.
+// Ends the line and continues with the next one in the text.
 #define FOLLOWING_LINE()                                                                           \
   do {                                                                                             \
     pc = pc->following_line();                                                                     \
@@ -48,7 +47,7 @@ const std::int64_t* const reciprocal = core.reciprocals.data();
     goto fault;                                                                                    \
   } while (false)
 
-// What the slow operations need to know; `next` is where a line that leaves the loop goes on.
+// Stores the loop's registers for a slow operation; `next` is where the loop resumes.
 #define SYNC(next)                                                                                 \
   core.at = pc;                                                                                    \
   core.pc = next;                                                                                  \
@@ -60,7 +59,7 @@ const std::int64_t* const reciprocal = core.reciprocals.data();
   if (const Then flow = call; flow != Then::Next)                                                  \
   return flow == Then::Fault ? Exit::Fault : Exit::Leave
 
-// The element of Z that Y names.
+// The element of Z selected by Y.
 #define ELEMENT(index)                                                                             \
   if (static_cast<std::uint32_t>(r[index_variable]) - 1u >= element_count)                         \
     FAULT(BasicError::IllegalIndex);                                                               \
@@ -71,7 +70,7 @@ const std::int64_t* const reciprocal = core.reciprocals.data();
 #define C r[pc->c]
 #define D r[pc->d]
 
-// An operation after which the line goes on.
+// An operation that never ends its line.
 #define STEP(name, ...)                                                                            \
   OP(name) {                                                                                       \
     __VA_ARGS__;                                                                                   \
@@ -79,7 +78,7 @@ const std::int64_t* const reciprocal = core.reciprocals.data();
     DISPATCH();                                                                                    \
   }
 
-// An operation after which the line may go on or end.
+// An operation that may end its line.
 #define VALUE(name, ...)                                                                           \
   STEP(name, __VA_ARGS__)                                                                          \
   OP_LINE(name) {                                                                                  \
@@ -88,7 +87,7 @@ const std::int64_t* const reciprocal = core.reciprocals.data();
     NEXT_LINE();                                                                                   \
   }
 
-// A statement with which the line ends; most are done outside of the loop.
+// A statement that always ends its line; most run outside the loop.
 #define STATEMENT(name, ...)                                                                       \
   OP(name) {                                                                                       \
     __VA_ARGS__;                                                                                   \
@@ -128,7 +127,7 @@ dispatch : switch (reinterpret_cast<std::uintptr_t>(pc->handler)) {
   VALUE(StoreElement, ELEMENT(index); r[index] = A)
   VALUE(ReadSystem, SLOW(pc + 1, core.read_system(*pc)))
   OP(WriteSystem) {
-    SLOW((pc + 1)->target(), core.write_system(*pc)); // by a `goto` the line ends
+    SLOW((pc + 1)->target(), core.write_system(*pc)); // `goto` ends the line
     ++pc;
     DISPATCH();
   }
@@ -192,7 +191,7 @@ dispatch : switch (reinterpret_cast<std::uintptr_t>(pc->handler)) {
     NEXT_LINE();
   }
 
-// The row of the list that A names.
+// The list entry selected by A.
 #define CHOSEN(row)                                                                                \
   if (static_cast<std::uint32_t>(A) - 1u >= pc->b)                                                 \
     FAULT(BasicError::IllegalIndex);                                                               \
@@ -210,7 +209,7 @@ dispatch : switch (reinterpret_cast<std::uintptr_t>(pc->handler)) {
     CALL(row->target());
   }
 
-// The innermost loop may begin again.
+// Pushes a loop, or restarts the innermost one if it has the same variable.
 #define BEGIN_LOOP(counter, last, by)                                                              \
   if (by == 0)                                                                                     \
     FAULT(BasicError::BadStepValue);                                                               \
@@ -257,7 +256,7 @@ dispatch : switch (reinterpret_cast<std::uintptr_t>(pc->handler)) {
     return Exit::Ended;
   }
   OP(EndOfProgram) {
-    ++budget; // no line of its own
+    ++budget; // the end of the text is not a line
     SYNC(pc);
     return Exit::Ended;
   }

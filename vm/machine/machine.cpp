@@ -14,7 +14,7 @@ using bytecode::Op;
 using spec::BasicError;
 
 constexpr std::int64_t second = Duration{1s}.count();
-/// No product of a run's lines or time leaves 63 bits.
+/// Limits a run, so that products of lines and time fit 63 bits.
 constexpr std::int64_t most_lines = 8'000'000'000;
 constexpr std::int64_t greatest_product = 1'000'000'000 * most_lines; // below 2^63
 
@@ -34,7 +34,8 @@ Machine::Machine(const Machine& other)
     : engine_(other.engine_), core_(other.core_), native_(other.native_), now_(other.now_),
       lines_(other.lines_), earlier_lines_(other.earlier_lines_), running_(other.running_),
       tracing_(other.tracing_), gate_(other.gate_), held_(other.held_),
-      announced_(other.announced_), missing_line_(other.missing_line_), stop_(other.stop_) {
+      announced_(other.announced_), missing_line_(other.missing_line_),
+      termination_(other.termination_) {
   const auto& from = other.core_;
   const auto same = [&](const Code* place) {
     return place == nullptr ? nullptr : core_.code.data() + from.index_of(place);
@@ -98,7 +99,7 @@ void Machine::start(bytecode::Chunk chunk, int line, Instant now) {
   native_.begin(core_.code.size());
   running_ = true;
   announced_ = false;
-  stop_.reset();
+  termination_.reset();
 
   const auto found = std::find_if(core_.chunk.lines.begin(), core_.chunk.lines.end(),
                                   [&](const auto& row) { return row.number == line; });
@@ -119,16 +120,16 @@ int Machine::line_of(const Code* code) const {
 
 void Machine::finish(event::End::Reason reason) {
   running_ = false;
-  stop_ = {reason, 0, std::nullopt, lines_};
+  termination_ = {reason, 0, std::nullopt, lines_};
 }
 
 void Machine::finish(BasicError error, int line) {
   running_ = false;
-  stop_ = {event::End::Reason::Error, line, error, lines_};
+  termination_ = {event::End::Reason::Error, line, error, lines_};
 }
 
-std::optional<Machine::Stop> Machine::take_stop() {
-  return std::exchange(stop_, std::nullopt);
+std::optional<Machine::Termination> Machine::take_termination() {
+  return std::exchange(termination_, std::nullopt);
 }
 
 void Machine::stop(event::End::Reason reason) {
@@ -145,7 +146,7 @@ void Machine::abort() {
   if (!running_)
     return;
   finish(BasicError::UserAbort, line());
-  stop_->reason = event::End::Reason::Abort;
+  termination_->reason = event::End::Reason::Abort;
 }
 
 std::int32_t Machine::timer(spec::Variable variable, Instant now) const {
@@ -179,13 +180,14 @@ Instant Machine::next_event() const {
   return core_.time_of(core_.done + 1);
 }
 
-/// How many lines end before `limit`.
+/// The number of lines that end before `limit`.
 std::int64_t Machine::lines_before(Instant limit) const {
   const std::int64_t longest = greatest_product / core_.lines_per_second;
   const std::int64_t time = std::min((limit - core_.base).count(), longest);
   if (time <= 0)
     return 0;
-  // Line k ends before it when k * 10^9 / N < time: all k below the quotient, rounded up.
+  // Line k ends before `limit` if k * 10^9 / N < time, hence for all k below the quotient, rounded
+  // up.
   const std::int64_t last = (time * core_.lines_per_second + second - 1) / second - 1;
   return std::min(last - core_.done, most_lines);
 }
@@ -204,7 +206,7 @@ void Machine::deliver_input(std::int32_t value, Instant now) {
     finish(core_.error, line_of(core_.at));
 }
 
-/// Ends what the program waits for, where that is before `limit`. True when it can go on.
+/// Ends a wait that is over before `limit`. Returns true if the program can continue.
 bool Machine::continue_wait(Instant limit, Host& host) {
   if (core_.wait == Core::Wait::Nothing)
     return true;
@@ -226,7 +228,7 @@ bool Machine::continue_wait(Instant limit, Host& host) {
   return true;
 }
 
-/// Prints the number of the next line for tron. True when the line can run.
+/// Prints the number of the next line for tron. Returns true if the line can run.
 bool Machine::announce(Host& host) {
   if (announced_ || !core_.tron)
     return true;
@@ -273,7 +275,8 @@ void Machine::run(Instant limit, Host& host) {
     lines_ += static_cast<std::uint64_t>(executed);
     core_.done += executed;
     core_.allowed = core_.budget = 0;
-    // Whole seconds hold whole lines, so the numbers stay small.
+    // Move whole seconds into base, so that the numbers stay small. A second holds a whole number
+    // of lines.
     core_.base += std::chrono::seconds{core_.done / core_.lines_per_second};
     core_.done %= core_.lines_per_second;
     announced_ = false;

@@ -17,7 +17,7 @@ Exit run(Core& core) {
 
 } // namespace
 
-// The handler of an operation is the number of its case.
+// The handler of an operation is its case number.
 Engine switch_engine() {
   static const auto handlers = [] {
     std::array<const void*, 2 * bytecode::ops.size()> made{};
@@ -28,7 +28,7 @@ Engine switch_engine() {
   return {handlers.data(), run};
 }
 
-#if !defined(__GNUC__) || defined(__wasm__) // machine_threaded.cpp
+#if !defined(__GNUC__) || defined(__wasm__) // see threaded.cpp
 Engine threaded_engine() {
   return switch_engine();
 }

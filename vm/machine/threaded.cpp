@@ -1,9 +1,9 @@
 #include "bytecode/arithmetic.h"
 #include "vm/machine/core.h"
 
-// Each block jumps straight to the next one, so that the processor learns which instruction tends
-// to follow which. Labels as values are an extension of gcc and clang; WebAssembly has no such
-// jump.
+// Jumps directly from block to block, so that the processor can predict each instruction from the
+// one before. Uses labels as values, an extension of gcc and clang; WebAssembly has no computed
+// jumps.
 #if defined(__GNUC__) && !defined(__wasm__)
 
 #pragma GCC diagnostic push
@@ -13,7 +13,7 @@ namespace orb::vm {
 
 namespace {
 
-/// Runs; without a core it only tells where its blocks are.
+/// Runs the core. Without a core it only returns the table of handlers.
 Exit run_threaded(Core* machine, const void* const** table) {
   static const void* const handlers[] = {
 #define ORB_Value(name) &&name, &&name
@@ -34,7 +34,7 @@ Exit run_threaded(Core* machine, const void* const** table) {
 #include "vm/machine/loop.h"
 }
 
-Exit run(Core& core) {
+Exit run_directly(Core& core) {
   return run_threaded(&core, nullptr);
 }
 
@@ -43,7 +43,7 @@ Exit run(Core& core) {
 Engine threaded_engine() {
   const void* const* handlers = nullptr;
   run_threaded(nullptr, &handlers);
-  return {handlers, run};
+  return {handlers, run_directly};
 }
 
 } // namespace orb::vm

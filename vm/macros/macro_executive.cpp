@@ -17,7 +17,7 @@ std::uint8_t byte(std::int32_t value) {
 }
 
 Motor motor(std::int32_t mode, std::int32_t power) {
-  // A mode that no document names leaves the motor alone.
+  // Undocumented modes leave the motor alone.
   return {static_cast<MotorMode>(std::min(mode, motor_ignore)), power};
 }
 
@@ -146,7 +146,7 @@ MacroOutcome MacroExecutive::save(ByteView image, Instant now) {
 
 MacroOutcome MacroExecutive::save_stream(const MacroHeader& header, ByteView commands) {
   if (id_ == spec::macro_id_stream) {
-    // What a loop still goes back to is alive as much as what lies ahead.
+    // Commands that a loop can return to must be kept, too.
     const auto live_from =
         loop_.id == spec::macro_id_stream && loop_.start < next_ ? loop_.start : next_;
     const auto shift = store_.append_stream(commands, live_from);
@@ -219,7 +219,7 @@ Instant MacroExecutive::next_event() const {
   if (!running())
     return never;
   auto next = wake_;
-  // Waits, fades and collisions are looked at on the next tick.
+  // Waits, fades and collisions are polled every tick.
   if (fade_.active || waits_for_stop_ || (collided_ && collision_target_ != spec::macro_id_none))
     next = std::min(next, next_tick());
   return next;
@@ -294,7 +294,7 @@ void MacroExecutive::begin_tick() {
 void MacroExecutive::run_command() {
   if (next_ >= code_.size()) {
     if (id_ == spec::macro_id_stream)
-      wake_ = never; // the pause after the last chunk
+      wake_ = never; // a stream pauses after its last chunk
     else
       reach_end();
     return;
@@ -323,13 +323,13 @@ void MacroExecutive::perform(const MacroStep& step) {
   case MacroCommand::SetSd1: parameters_.sd1_ms = static_cast<std::uint16_t>(value[0]); return;
   case MacroCommand::SetSd2: parameters_.sd2_ms = static_cast<std::uint16_t>(value[0]); return;
   case MacroCommand::Stabilization:
-    // The vendor's reader takes any value that it does not know as off.
+    // The vendor's reader treats unknown values as off.
     host_->drive(value[0] > static_cast<int>(Stabilization::On)
                      ? Stabilization::Off
                      : static_cast<Stabilization>(value[0]));
     return wait_ms(value[1]);
   case MacroCommand::SetHeading:
-    host_->drive(SetHeading{0}); // whatever the operand: M-16 in docs/macros.md
+    host_->drive(SetHeading{0}); // the operand is ignored: M-16 in docs/using/macros.md
     return wait_ms(value[1]);
   case MacroCommand::Roll:
   case MacroCommand::Roll2: roll(value[0], value[1]); return wait_ms(value[2]);
@@ -422,7 +422,7 @@ void MacroExecutive::set_color(Color color) {
 }
 
 void MacroExecutive::start_loop(std::uint8_t count) {
-  // A second Start replaces the first: loops do not nest.
+  // Loops do not nest: a second Start replaces the first.
   loop_ = {id_, next_, number_, std::max(count, spec::macro_loop_least)};
 }
 
@@ -438,7 +438,7 @@ void MacroExecutive::end_loop() {
 }
 
 void MacroExecutive::go_to(std::uint8_t id) {
-  // Nothing leads into the stream, not even from itself: its buffer has no beginning to go to.
+  // The stream is not a target, not even for itself: its buffer has no fixed beginning.
   const auto image =
       id == spec::macro_id_stream || id == spec::macro_id_none ? ByteView{} : image_of(id);
   const auto header = protocol::read_macro_header(image);
@@ -484,7 +484,7 @@ void MacroExecutive::finish(MacroEnding ending) {
   rest(ending);
 }
 
-/// Nothing runs from here on.
+/// Ends the macro; nothing runs afterwards.
 void MacroExecutive::rest(MacroEnding ending) {
   finished_ = {{id_, number_, ending}, flags_};
   id_ = spec::macro_id_none;

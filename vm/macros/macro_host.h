@@ -1,14 +1,15 @@
 #pragma once
 
 #include "base/time.h"
-#include "vm/settings.h"
+#include "vm/common/settings.h"
 
 #include <cstdint>
 
 namespace orb::vm {
 
-/// All that the macro executive can do to the ball and ask of it. Ball implements it, arbitrates
-/// against clients and programs (Actor::Macro) and traces; the executive keeps time and order.
+/// The macro executive's view of the ball: everything a macro may read or do. Ball implements it,
+/// arbitrates against clients and programs (Actor::Macro) and traces; the executive keeps time and
+/// order.
 class MacroHost {
 public:
   virtual ~MacroHost() = default;
@@ -19,13 +20,13 @@ public:
   virtual void configure_collisions(const CollisionSettings& settings) = 0;
   /// Sends the marker message (async 06h). `command` counts from 1.
   virtual void emit_marker(int marker, int macro, int command) = 0;
-  /// Tells the observer which command begins.
+  /// Reports to the observer which command begins.
   virtual void trace_command(int macro, int command) = 0;
-  /// The ball falls asleep when the executive returns, for `time_ms`: 0 forever,
+  /// Puts the ball to sleep when the executive returns, for `time_ms`: 0 forever,
   /// spec::macro_sleep_inherit as long as the last sleep.
   virtual void sleep_ms(int time_ms) = 0;
 
-  /// Whether the next command may begin; else the executive comes back before it.
+  /// Returns true if the next command may begin; otherwise the executive returns before it.
   virtual bool may_begin() { return true; }
 
   virtual bool stopped() const = 0;

@@ -63,7 +63,7 @@ bool MacroStore::append_temporary(ByteView bytes) {
 }
 
 std::optional<std::uint32_t> MacroStore::append_stream(ByteView commands, std::uint32_t live_from) {
-  // One byte stays free for the pause that the robot puts after the last chunk.
+  // Keep one byte free for the pause that the robot appends to the last chunk.
   const auto capacity = buffer_.size() - 1;
   std::uint32_t shift = 0;
   holds_stream_ = true;

@@ -9,31 +9,31 @@
 
 namespace orb::vm {
 
-/// Where a ball keeps its macros: one buffer that the temporary and the stream macro share, and a
-/// heap for user macros with an index that sleep forgets. A plain value.
-/// Source: low-level API §User Macros, §The Stream Macro.
+/// Storage for macros: one buffer shared by the temporary and the stream macro, and a heap for user
+/// macros with an index that is lost in sleep. A plain value. Source: low-level API §User Macros,
+/// §The Stream Macro.
 class MacroStore {
 public:
-  /// The image (id, flags, body) of a user or temporary macro; empty where there is none.
+  /// Returns the image (id, flags, body) of a user or temporary macro; empty if there is none.
   ByteView find(std::uint8_t id) const;
 
-  /// The bytes here that `view` is of another store; any other view stays as it is.
+  /// Maps a view into `from` to the same bytes of this store. Other views stay as they are.
   ByteView moved(ByteView view, const MacroStore& from) const;
 
-  /// Takes a user macro: false when the id is taken, or the heap or the index is full.
+  /// Stores a user macro. Returns false if the id is taken, or the heap or index is full.
   bool save_user(std::uint8_t id, ByteView image);
   void forget_users();
 
-  /// Empties the buffer that the temporary and the stream macro share.
+  /// Empties the buffer shared by the temporary and the stream macro.
   void clear_buffer();
-  /// The temporary macro stays, but the next append_temporary() replaces it.
+  /// Keeps the temporary macro, but lets the next append_temporary() replace it.
   void close_temporary() { closed_ = true; }
-  /// Adds bytes to the temporary macro, whose id becomes 255 whatever it was: false, and nothing
-  /// stored, when they do not fit.
+  /// Appends bytes to the temporary macro and sets its id to 255. Returns false and stores nothing
+  /// if they do not fit.
   bool append_temporary(ByteView bytes);
 
-  /// Adds a chunk of commands to the stream, of whose bytes those before `live_from` are done with.
-  /// Returns by how much the rest moved down to make room; nothing when there still is none.
+  /// Appends a chunk of commands to the stream; bytes before `live_from` may be dropped. Returns
+  /// how far the rest moved down to make room; nullopt if the chunk does not fit even so.
   std::optional<std::uint32_t> append_stream(ByteView commands, std::uint32_t live_from);
   ByteView stream() const { return ByteView(buffer_).first(buffer_used_); }
 

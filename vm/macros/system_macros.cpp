@@ -8,13 +8,13 @@ namespace {
 
 using enum spec::MacroCommand;
 
-constexpr std::uint8_t byte(spec::MacroCommand command) {
+constexpr std::uint8_t code(spec::MacroCommand command) {
   return static_cast<std::uint8_t>(command);
 }
-constexpr std::uint8_t byte(spec::MacroFlag flag) {
+constexpr std::uint8_t code(spec::MacroFlag flag) {
   return static_cast<std::uint8_t>(flag);
 }
-/// The two bytes of a number, as an image holds them.
+/// The two bytes of a number, in the order of an image.
 constexpr std::uint8_t high(int number) {
   return static_cast<std::uint8_t>(number >> 8);
 }
@@ -29,18 +29,18 @@ constexpr int turn = spec::ball::full_circle;
 constexpr std::uint8_t full = spec::ball::greatest;
 
 // clang-format off
-constexpr std::uint8_t stop[]      = {1, 0, byte(SetSpeed), 0, 0, byte(End)};
-constexpr std::uint8_t blink[]     = {2, 0, byte(LoopStart), 3,
-                                      byte(Rgb), full, full, full, wink, byte(Rgb), 0, 0, 0, wink,
-                                      byte(LoopEnd), byte(End)};
-constexpr std::uint8_t spin[]      = {3, byte(spec::MacroFlag::MotorControl),
-                                      byte(Rotate), high(turn), low(turn), high(second), low(second),
-                                      byte(Delay), high(second), low(second), byte(End)};
-constexpr std::uint8_t heartbeat[] = {4, byte(spec::MacroFlag::Unkillable),
-                                      byte(Fade), full, 0, 0, high(half_second), low(half_second),
-                                      byte(Delay), high(half_second), low(half_second),
-                                      byte(Fade), 0, 0, 0, high(half_second), low(half_second),
-                                      byte(Delay), high(half_second), low(half_second), byte(End)};
+constexpr std::uint8_t stop[]      = {1, 0, code(SetSpeed), 0, 0, code(End)};
+constexpr std::uint8_t blink[]     = {2, 0, code(LoopStart), 3,
+                                      code(Rgb), full, full, full, wink, code(Rgb), 0, 0, 0, wink,
+                                      code(LoopEnd), code(End)};
+constexpr std::uint8_t spin[]      = {3, code(spec::MacroFlag::MotorControl),
+                                      code(Rotate), high(turn), low(turn), high(second), low(second),
+                                      code(Delay), high(second), low(second), code(End)};
+constexpr std::uint8_t heartbeat[] = {4, code(spec::MacroFlag::Unkillable),
+                                      code(Fade), full, 0, 0, high(half_second), low(half_second),
+                                      code(Delay), high(half_second), low(half_second),
+                                      code(Fade), 0, 0, 0, high(half_second), low(half_second),
+                                      code(Delay), high(half_second), low(half_second), code(End)};
 
 constexpr SystemMacro macros[] = {
     {1, "stops without turning",                    stop},

@@ -8,15 +8,15 @@
 
 namespace orb::vm {
 
-/// A macro that is compiled into the ball. What the vendor's system macros do is not documented;
-/// these are harmless ones of our own, so that ids 1 to 31 can be tried.
+/// A macro compiled into the ball. The vendor's system macros are undocumented; these are harmless
+/// ones of our own, so that ids 1 to 31 can be tried.
 struct SystemMacro {
   std::uint8_t id = 0;
   std::string_view summary;
   ByteView image; ///< id, flags, body
 };
 
-/// By ascending id.
+/// Returns all system macros by ascending id.
 std::span<const SystemMacro> system_macros();
 
 } // namespace orb::vm

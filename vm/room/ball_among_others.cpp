@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-// A ball among others: what they do to it, and how far it goes on by itself.
+// A ball in a room: contacts with other balls, and fast advance between them.
 
 namespace orb::vm {
 

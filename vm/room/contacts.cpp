@@ -10,16 +10,16 @@
 namespace orb::vm {
 namespace {
 
-using namespace spec::ball; // the numbers of the model
+using namespace spec::ball; // figures of the model
 
 struct Contact {
-  Pair pair;
+  IndexPair pair;
   Point normal; ///< from the second to the first
   double depth = 0;
-  bool told = false; ///< as a knock
+  bool told = false; ///< reported as a knock
 };
 
-std::vector<Contact> touching(std::span<const Mover> balls, std::span<const Pair> pairs) {
+std::vector<Contact> touching(std::span<const Mover> balls, std::span<const IndexPair> pairs) {
   constexpr double touch = 2 * radius - 1e-9;
   std::vector<Contact> found;
   for (const auto& pair : pairs) {
@@ -43,13 +43,13 @@ void add(Point& to, Point what, double times) {
   to.y += what.y * times;
 }
 
-/// Turns the two back where they approach each other. True where they did.
+/// Separates two balls that approach each other. Returns true if they did.
 bool part(Contact& contact, std::vector<Point>& velocities, std::vector<Shove>& shoves) {
   const auto [first, second] = contact.pair;
   const auto& normal = contact.normal;
   const double approach = (velocities[second].x - velocities[first].x) * normal.x +
                           (velocities[second].y - velocities[first].y) * normal.y;
-  constexpr double none = 1e-9; // cm/s: what rounding leaves
+  constexpr double none = 1e-9; // cm/s: rounding errors
   if (approach <= none)
     return false;
   const bool hard = approach >= least_blow;
@@ -59,7 +59,7 @@ bool part(Contact& contact, std::vector<Point>& velocities, std::vector<Shove>& 
     add(shoves[ball].change, normal, sign * gained);
   }
   if (hard && !std::exchange(contact.told, true)) {
-    // Two that meet at the same speed feel what each would feel of a wall.
+    // Each feels half the closing speed: two that meet at the same speed feel a wall.
     const Point into{normal.x * approach / 2, normal.y * approach / 2};
     shoves[first].knocks.push_back({second, {-into.x, -into.y}});
     shoves[second].knocks.push_back({first, into});
@@ -69,7 +69,7 @@ bool part(Contact& contact, std::vector<Point>& velocities, std::vector<Shove>& 
 
 } // namespace
 
-std::vector<Shove> contacts(std::span<const Mover> balls, std::span<const Pair> pairs) {
+std::vector<Shove> contacts(std::span<const Mover> balls, std::span<const IndexPair> pairs) {
   std::vector<Shove> shoves(balls.size());
   auto found = touching(balls, pairs);
   if (found.empty())
@@ -77,7 +77,7 @@ std::vector<Shove> contacts(std::span<const Mover> balls, std::span<const Pair> 
   std::vector<Point> velocities(balls.size());
   std::transform(balls.begin(), balls.end(), velocities.begin(),
                  [](const Mover& ball) { return ball.velocity; });
-  constexpr int most_rounds = 8; // what one contact parts, it may drive into the next
+  constexpr int most_rounds = 8; // separating one contact may close the next
   for (int round = 0, parted = 1; parted != 0 && round < most_rounds; ++round) {
     parted = 0;
     for (auto& contact : found)

@@ -8,9 +8,9 @@
 
 namespace orb::vm {
 
-/// What balls that may touch do to one another at an instant: an entry for each ball. They weigh
-/// the same. Momentum stays, energy does not grow. The deepest contact comes first, of equals the
-/// one that `pairs` names first. Source: spec/ball.def (ball_restitution, least_blow, radius).
-std::vector<Shove> contacts(std::span<const Mover> balls, std::span<const Pair> pairs);
+/// Resolves contacts of balls at an instant and returns an entry for each ball. They have the same
+/// mass; momentum is conserved, energy does not grow. Deeper contacts come first; ties keep the
+/// order of `pairs`. Source: spec/ball.def (ball_restitution, least_blow, radius).
+std::vector<Shove> contacts(std::span<const Mover> balls, std::span<const IndexPair> pairs);
 
 } // namespace orb::vm

@@ -13,8 +13,8 @@ struct Cell {
   std::int64_t y = 0;
 };
 
-/// The cells of a grid, in about as many buckets as there are places; cells may share one. Cells
-/// above one another are in buckets that follow one another.
+/// Grid cells hashed into about as many buckets as there are places; cells may share one.
+/// Vertically adjacent cells are in adjacent buckets.
 class Grid {
 public:
   Grid(std::span<const Point> places, double size)
@@ -32,8 +32,8 @@ public:
       sorted_[next[bucket(cells_[i])]++] = i;
   }
 
-  /// Calls `take` with those in the cell of `i` and the eight around it, so that each pair comes
-  /// once: with those of its column that come after `i`, and with all of the next column.
+  /// Calls `take` with the places in the cell of `i` and around it, so that each pair comes once:
+  /// those of its column after `i`, and all of the next column.
   template <class Take>
   void around(std::size_t i, Take take) const {
     const auto& [x, y] = cells_[i];
@@ -57,15 +57,15 @@ private:
   }
 
   std::size_t buckets_;            ///< a power of two, at least four
-  std::vector<std::size_t> first_; ///< of each bucket in `sorted_`
+  std::vector<std::size_t> first_; ///< start of each bucket in `sorted_`
   std::vector<Cell> cells_;
   std::vector<std::size_t> sorted_;
 };
 
 } // namespace
 
-std::vector<Pair> neighbours(std::span<const Point> places, double distance_cm) {
-  std::vector<Pair> pairs;
+std::vector<IndexPair> neighbours(std::span<const Point> places, double distance_cm) {
+  std::vector<IndexPair> pairs;
   const Grid grid(places, distance_cm);
   for (std::size_t i = 0; i < places.size(); ++i)
     grid.around(i, [&](std::size_t j) {

@@ -9,16 +9,16 @@
 
 namespace orb::vm {
 
-/// Two of a list, the first one's place being the smaller.
-struct Pair {
+/// Two indexes of a list, the smaller first.
+struct IndexPair {
   std::size_t first = 0;
   std::size_t second = 0;
 
-  friend auto operator<=>(const Pair&, const Pair&) = default;
+  friend auto operator<=>(const IndexPair&, const IndexPair&) = default;
 };
 
-/// The pairs of places that are at most `distance_cm` apart, in order. It looks into the cells of a
-/// uniform grid: O(n) where few places share a cell.
-std::vector<Pair> neighbours(std::span<const Point> places, double distance_cm);
+/// Returns the pairs of places at most `distance_cm` apart, in order. Uses a uniform grid: O(n) if
+/// few places share a cell.
+std::vector<IndexPair> neighbours(std::span<const Point> places, double distance_cm);
 
 } // namespace orb::vm

@@ -13,10 +13,10 @@
 namespace orb::vm {
 namespace {
 
-constexpr Duration::rep most_steps = 128; ///< that balls live by themselves
+constexpr Duration::rep most_steps = 128; ///< longest time that balls advance independently
 
-/// The longest that is halved down to a step, of `longest` steps at most, within `left`; what is
-/// left of a step where that is shorter, or where one has begun.
+/// The next time slice: a power of two of steps, at most `longest`, within `left`. If a step has
+/// begun, or less than one is left, the rest of it.
 Duration next_while(Duration now, Duration left, Duration::rep longest) {
   if (const auto begun = now % Body::step; begun != Duration{})
     return std::min(left, Body::step - begun);
@@ -40,6 +40,10 @@ double squared(const Point& one, const Point& other) {
 
 } // namespace
 
+Room::Room(const Room& other, std::vector<Resident*> balls) : Room(other) {
+  balls_ = std::move(balls);
+}
+
 void Room::add(std::string name, Resident& ball) {
   names_.push_back(std::move(name));
   balls_.push_back(&ball);
@@ -53,7 +57,7 @@ void Room::advance_to(Duration t) {
   while (now_ < t) {
     const auto time = next_while(now_, t - now_, longest_);
     const auto close = pass(all, nullptr, time);
-    // Where most are near another it was too long, where few are it may be longer.
+    // Adapt the slice: halve it if most balls are near another, double it if few are.
     const auto steps = std::max<Duration::rep>(time / Body::step, 1);
     if (2 * close > all.size())
       longest_ = std::max<Duration::rep>(steps / 2, 1);
@@ -62,7 +66,7 @@ void Room::advance_to(Duration t) {
   }
 }
 
-/// So near two must be to touch within `time`.
+/// The distance within which two balls can touch during `time`.
 double Room::reach_cm(const Crowd& crowd, Duration time) const {
   double fastest = 0;
   for (const auto ball : crowd) {
@@ -71,22 +75,22 @@ double Room::reach_cm(const Crowd& crowd, Duration time) const {
     fastest = std::max(fastest, outlook.speed_cm_s + pushed);
   }
   fastest += spec::ball::acceleration * seconds(time);
-  // Who is hit by several at once may become faster than each of them was, but not by that much.
+  // Several simultaneous hits may make a ball faster than each of them, but not by this factor.
   constexpr double margin = 1.25;
-  constexpr double aside = 1; // cm: how far others may push it out of them in the meantime
+  constexpr double aside = 1; // cm: how far other balls may shift it meanwhile
   return 2 * (spec::ball::radius + aside + margin * fastest * seconds(time));
 }
 
-/// The pairs of a crowd that are within reach, in order; all of them are among `known`, if there is
-/// that.
+/// Finds the pairs of a crowd within reach, in order. `known`, if given, contains them all.
 void Room::find_pairs(const Crowd& crowd, const Pairs* known, double reach_cm, Pairs& pairs) const {
-  constexpr std::size_t cheap = 8; // pairs a ball: to look at more takes longer than to search
+  constexpr std::size_t cheap = 8; // known pairs per ball: beyond this a new search is faster
   if (known != nullptr && known->size() <= cheap * crowd.size()) {
     pairs.clear();
-    std::copy_if(known->begin(), known->end(), std::back_inserter(pairs), [&](const Pair& pair) {
-      return squared(outlooks_[pair.first].place, outlooks_[pair.second].place) <=
-             reach_cm * reach_cm;
-    });
+    std::copy_if(known->begin(), known->end(), std::back_inserter(pairs),
+                 [&](const IndexPair& pair) {
+                   return squared(outlooks_[pair.first].place, outlooks_[pair.second].place) <=
+                          reach_cm * reach_cm;
+                 });
     return;
   }
   std::vector<Point> places(crowd.size());
@@ -97,7 +101,7 @@ void Room::find_pairs(const Crowd& crowd, const Pairs* known, double reach_cm, P
     pair = {crowd[pair.first], crowd[pair.second]};
 }
 
-/// Lets `time` pass for a crowd that no other ball can reach in it; how many of them may have
+/// Advances a crowd that no other ball can reach during `time`. Returns how many of them may have
 /// touched another.
 std::size_t Room::pass(const Crowd& crowd, const Pairs* known, Duration time) {
   const auto to = now_ + time;
@@ -131,13 +135,14 @@ void Room::move(std::size_t ball, Duration to) {
   outlooks_[ball] = balls_[ball]->outlook();
 }
 
-/// Lets those of the pairs feel each other that are in touch.
+/// Resolves contacts among the pairs that touch.
 void Room::touch(const Pairs& pairs) {
   constexpr double touch = 2 * spec::ball::radius;
   Pairs touching;
-  std::copy_if(pairs.begin(), pairs.end(), std::back_inserter(touching), [&](const Pair& pair) {
-    return squared(outlooks_[pair.first].place, outlooks_[pair.second].place) <= touch * touch;
-  });
+  std::copy_if(
+      pairs.begin(), pairs.end(), std::back_inserter(touching), [&](const IndexPair& pair) {
+        return squared(outlooks_[pair.first].place, outlooks_[pair.second].place) <= touch * touch;
+      });
   if (!touching.empty())
     meet(std::move(touching));
 }

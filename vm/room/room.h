@@ -12,43 +12,46 @@
 
 namespace orb::vm {
 
-/// What others have to know of a ball to keep clear of it.
+/// What others must know to keep clear of a ball.
 struct Outlook {
   Point place;
-  double speed_cm_s = 0;           ///< unless it speeds up, or something pushes it
-  Duration push = Duration::max(); ///< when something may next
+  double speed_cm_s = 0;           ///< unless it accelerates or is pushed
+  Duration push = Duration::max(); ///< when it may next be pushed
 };
 
-/// A ball as a room moves it. Times count from the room's start, which is a step of each ball's
-/// control system.
+/// A ball as a room moves it. Times count from the room's start, which coincides with a step of
+/// each ball's control system.
 class Resident {
 public:
   virtual ~Resident() = default;
   virtual void advance_to(Duration t) = 0;
   virtual Mover mover() const = 0;
   virtual Outlook outlook() const = 0;
-  /// Others press on it or have run into it; `names` are those of all balls.
+  /// Applies contact with other balls. `names` are the names of all balls.
   virtual void meet(const Shove& shove, std::span<const std::string> names) = 0;
 };
 
-/// Balls in one world. Each lives by itself for as long as it can touch no other: a while that is
-/// halved for those that may, down to a step of the control system, after which contacts are looked
-/// for. What happens does not depend on how long that is.
+/// Balls in one world. Each advances independently while it cannot touch another; for those that
+/// may, the time is halved, down to one step of the control system, after which contacts are
+/// resolved. Results do not depend on these times.
 class Room {
 public:
-  /// The balls, in the order of their names, which are all different; they outlive the room.
+  Room() = default;
+  /// Copies a room for copies of its balls, in the order of those of `other`.
+  Room(const Room& other, std::vector<Resident*> balls);
+  /// Adds a ball. Names must be unique and in order; the ball must outlive the room.
   void add(std::string name, Resident& ball);
-  /// Lets everything happen up to `t`.
+  /// Runs everything that is due up to `t`.
   void advance_to(Duration t);
   Duration now() const { return now_; }
 
 private:
   using Crowd = std::vector<std::size_t>;
-  using Pairs = std::vector<Pair>;
-  /// What is kept from one while to the next one as long, so that nothing is allocated.
+  using Pairs = std::vector<IndexPair>;
+  /// Buffers kept for slices of one length, so that nothing is allocated.
   struct Pass {
-    Pairs pairs; ///< that may touch in it
-    Crowd close; ///< who is one of a pair
+    Pairs pairs; ///< pairs that may touch
+    Crowd close; ///< balls that are in a pair
   };
   double reach_cm(const Crowd& crowd, Duration time) const;
   void find_pairs(const Crowd& crowd, const Pairs* known, double reach_cm, Pairs& pairs) const;
@@ -59,11 +62,11 @@ private:
 
   std::vector<std::string> names_;
   std::vector<Resident*> balls_;
-  std::vector<Outlook> outlooks_; ///< of each ball, as of when it was moved last
-  std::vector<char> marks_;       ///< of each ball; none between calls
+  std::vector<Outlook> outlooks_; ///< by ball, as of its last move
+  std::vector<char> marks_;       ///< by ball; all 0 between calls
   Duration now_{};
-  Duration::rep longest_ = 1;  ///< steps that balls live by themselves at most, as it turned out
-  std::array<Pass, 8> passes_; ///< of a step, of two, of four …
+  Duration::rep longest_ = 1;  ///< longest slice in steps, adapted while running
+  std::array<Pass, 8> passes_; ///< for slices of one step, two, four …
 };
 
 } // namespace orb::vm

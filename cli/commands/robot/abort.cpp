@@ -13,7 +13,7 @@ using spec::ApiCommand;
 
 constexpr auto command_at = spec::answer_offset(ApiCommand::AbortMacro, "command");
 
-/// What the ball says when a program is stopped; nothing where none ran.
+/// Reads the ball's message about a stopped program; nothing if none ran.
 std::optional<std::uint16_t> stopped_line(uploader::Session& session) {
   (void)session.listen(session.now() + session.budgets().settle);
   for (const auto& message : session.inbox()) {

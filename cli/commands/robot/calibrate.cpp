@@ -21,12 +21,12 @@ namespace {
 struct CalibrateOptions {
   PortOptions port;
   std::string robot;
-  std::string output; ///< the name of the profile; empty for none
-  std::string ball;   ///< by which the robot of `sim:` drives
+  std::string output; ///< name of the profile; empty for none
+  std::string ball;   ///< profile that the robot of `sim:` drives by
   bool yes = false;
 };
 
-/// Says what will happen, and waits for Enter.
+/// Announces the drive and waits for Enter.
 tl::expected<void, Failure> ask(spec::Robot robot) {
   const auto time = std::chrono::round<std::chrono::seconds>(run::course_time()).count();
   print_err(fmt::format("the {} will drive by itself for up to {} s, within 2 m x 2 m\n"
@@ -69,7 +69,7 @@ tl::expected<void, Failure> save_profile(const Context& context, const std::stri
   return {};
 }
 
-/// Whoever drives is held at the end, whatever came of the drive.
+/// Stops the robot at the end, even after a failure.
 tl::expected<std::vector<run::Leg>, Failure> drive_course(Context& context, DrivenRobot& robot) {
   auto held = run::hold_robot(*robot.link.transport, robot.tether);
   if (!held)
@@ -89,8 +89,9 @@ tl::expected<std::vector<run::Leg>, Failure> drive_course(Context& context, Driv
   return legs;
 }
 
-/// What is told before anything moves. The virtual robot of `sim:` gets its numbers here.
-tl::expected<void, Failure> check(CalibrateOptions& options) {
+/// Checks the options before anything moves. The virtual robot of `sim:` takes its numbers from
+/// here.
+tl::expected<void, Failure> check_given(CalibrateOptions& options) {
   if (!options.output.empty())
     if (const auto file = profile_file(options.output); !file)
       return tl::unexpected(file.error());
@@ -108,7 +109,7 @@ tl::expected<void, Failure> check(CalibrateOptions& options) {
 }
 
 tl::expected<void, Failure> calibrate(Context& context, CalibrateOptions options) {
-  if (auto good = check(options); !good)
+  if (auto good = check_given(options); !good)
     return good;
   const InterruptGuard guard;
   auto connected = connect_robot(context, options.port, options.robot);

@@ -26,7 +26,7 @@ std::string first_line(const fs::path& path) {
   return line;
 }
 
-/// Whether a radio switch holds Bluetooth back.
+/// Checks if a radio switch blocks Bluetooth.
 void check_rfkill(Checkup& checkup) {
   std::error_code error;
   for (fs::directory_iterator entry(rfkill_folder, error), end; !error && entry != end;

@@ -9,7 +9,7 @@
 
 namespace orb::cli {
 
-/// Prints one finding a line, or gathers them for one JSON document, and knows whether one was bad.
+/// Prints one finding per line, or collects them for one JSON document. Remembers if one was bad.
 class Checkup {
 public:
   Checkup(const Context& context, Json* json) : style_(context.out_style()), json_(json) {}
@@ -20,7 +20,7 @@ public:
     else
       print_out(fmt::format("{}    {}\n", style_.paint(Role::Good, "ok"), text));
   }
-  /// What is wrong, and the command or act that helps.
+  /// Reports a problem and the command or action that helps.
   void bad(std::string_view text, std::string_view remedy) {
     healthy_ = false;
     if (json_ != nullptr)
@@ -32,14 +32,14 @@ public:
 
 private:
   Style style_;
-  Json* json_; ///< null where the findings are printed as they come
+  Json* json_; ///< null if findings are printed at once
   bool healthy_ = true;
 };
 
-/// Whether this computer has classic Bluetooth.
+/// Checks for classic Bluetooth on this computer.
 void check_bluetooth(Checkup& checkup);
 
-/// Whether a device is there and may be opened; it is not opened here.
+/// Returns true if a device exists and may be opened; does not open it.
 bool check_node(Checkup& checkup, const uploader::Endpoint& endpoint);
 
 } // namespace orb::cli

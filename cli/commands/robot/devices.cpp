@@ -9,7 +9,7 @@ namespace {
 namespace fs = std::filesystem;
 
 struct Pattern {
-  std::string_view prefix; ///< of the name below /dev
+  std::string_view prefix; ///< of device names below /dev
   std::string_view what;
 };
 

@@ -7,10 +7,10 @@
 
 namespace orb::cli {
 
-/// The devices of this computer that may be robots, by their names.
+/// The devices of this computer that may be robots, by name.
 std::vector<Port> find_devices();
 
-/// What to do where there is none.
+/// What to do if there is none.
 extern const std::string_view no_device_help;
 
 } // namespace orb::cli

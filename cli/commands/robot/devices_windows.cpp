@@ -7,18 +7,18 @@
 #include <fmt/format.h>
 #include <windows.h>
 
-#include <setupapi.h> // needs what that declares
+#include <setupapi.h> // needs windows.h
 
 namespace orb::cli {
 namespace {
 
 using Text = std::array<wchar_t, MAX_PATH>;
 
-/// What is "Ports (COM & LPT)" in the device manager.
+/// "Ports (COM & LPT)" in the device manager.
 constexpr GUID ports_class = {0x4D36E978, 0xE325, 0x11CE, {0xBF, 0xC1, 8, 0, 0x2B, 0xE1, 3, 0x18}};
 
 struct Driver {
-  std::wstring_view device; ///< how the names of its devices begin
+  std::wstring_view device; ///< how names of its devices begin
   std::string_view what;
 };
 
@@ -35,7 +35,7 @@ std::string_view what_is(std::wstring_view device) {
   return "serial port";
 }
 
-/// The number of a port: `COM12` comes after `COM5`.
+/// The number of a port, for sorting: `COM12` comes after `COM5`.
 int number_of(const Port& port) {
   return std::atoi(port.url.c_str() + std::string_view("COM").size());
 }
@@ -44,11 +44,11 @@ std::string in_utf8(const wchar_t* text) {
   return std::filesystem::path(text).string();
 }
 
-/// What the device manager shows of a device.
+/// What the device manager shows about a device.
 struct Device {
   std::string id; ///< such as `BTHENUM\DEV_6886E7001122\7&1A2B3C4D&0&BLUETOOTHDEVICE_6886E7001122`
-  std::string name; ///< its own, or that of its driver, such as `USB Serial Port (COM3)`
-  std::string port; ///< COM5; empty for what is none
+  std::string name; ///< its own or its driver's, such as `USB Serial Port (COM3)`
+  std::string port; ///< COM5; empty if it is not a port
 };
 
 std::string port_of(HDEVINFO all, SP_DEVINFO_DATA& one) {
@@ -63,7 +63,7 @@ std::string port_of(HDEVINFO all, SP_DEVINFO_DATA& one) {
   return read == ERROR_SUCCESS ? in_utf8(port.data()) : std::string();
 }
 
-/// The devices of a class, or of what enumerates them, such as Bluetooth.
+/// The devices of a class, or those of an enumerator such as Bluetooth.
 std::vector<Device> devices_of(const GUID* kind, const wchar_t* enumerator) {
   std::vector<Device> devices;
   const auto all = ::SetupDiGetClassDevsW(kind, enumerator, nullptr,
@@ -85,9 +85,9 @@ std::vector<Device> devices_of(const GUID* kind, const wchar_t* enumerator) {
   return devices;
 }
 
-/// A port of Bluetooth has the address of the device at its other end in its id, before the last
-/// `_`: `BTHENUM\{00001101-...}_LOCALMFG&0002\7&1A2B3C4D&0&6886E7001122_C00000000`. That of a
-/// port which waits for devices to call is all zeros.
+/// A Bluetooth port has the address of its peer in its id, before the last `_`:
+/// `BTHENUM\{00001101-...}_LOCALMFG&0002\7&1A2B3C4D&0&6886E7001122_C00000000`. The address is all
+/// zeros for a port that accepts incoming connections.
 std::string describe_bluetooth(const Device& port) {
   const auto end = port.id.rfind('_');
   const auto begin = port.id.rfind('&', end) + 1;
@@ -100,7 +100,7 @@ std::string describe_bluetooth(const Device& port) {
   return "Bluetooth serial port of a paired device";
 }
 
-/// In the words of Windows, without the name of the port that stands after them.
+/// The name that Windows shows, without the port in parentheses at its end.
 std::string describe_port(const Device& port) {
   return port.id.starts_with("BTHENUM\\") ? describe_bluetooth(port)
                                           : port.name.substr(0, port.name.rfind(" (COM"));
@@ -111,8 +111,8 @@ std::string describe_port(const Device& port) {
 const std::string_view no_device_help =
     "shake the ball awake and pair it in the Windows Bluetooth settings, which gives it a port";
 
-/// Windows keeps the names of all ports, with the driver's name of the device behind each; many of
-/// them stand in the device manager, too.
+/// Windows lists all ports with the driver's device name. Many of them also appear in the device
+/// manager.
 std::vector<Port> find_devices() {
   std::vector<Port> devices;
   HKEY key = nullptr;

@@ -20,7 +20,7 @@ namespace {
 using uploader::Endpoint;
 using uploader::Scheme;
 
-/// What robots over Bluetooth LE need of the computer; none is looked for.
+/// Checks what robots over Bluetooth LE need of the computer; does not scan.
 void check_ble(Checkup& checkup) {
   const auto gatt = uploader::make_bluez_gatt({});
   for (const auto step : {protocol::BleStep::Bus, protocol::BleStep::Adapter}) {
@@ -32,7 +32,7 @@ void check_ble(Checkup& checkup) {
   }
 }
 
-/// What this computer needs for any robot, and what could be one.
+/// Checks what this computer needs for any robot, and lists devices that may be one.
 void check_computer(const Context& context, Checkup& checkup) {
   for (const auto& port : find_ports(context.config))
     checkup.good(fmt::format("{} may be a ball ({}); `orb doctor --port {}` checks it", port.url,
@@ -41,7 +41,7 @@ void check_computer(const Context& context, Checkup& checkup) {
   check_ble(checkup);
 }
 
-/// What a robot of packets v2 says of itself.
+/// Reports what a packets v2 robot says about itself.
 tl::expected<void, Failure> look_at(Checkup& checkup, Link& link, const Newer& newer) {
   run::TalkV2 talk(*link.transport, newer.robot);
   if (const auto pinged = talk.request(spec::V2Command::Ping); !pinged)
@@ -62,7 +62,7 @@ tl::expected<void, Failure> look_at(Checkup& checkup, Link& link, const Newer& n
   return {};
 }
 
-/// What is sent comes back: the wires are good.
+/// Reports that sent bytes came back: the wires are good.
 void tell_echo(Checkup& checkup) {
   checkup.bad(
       "the port echoes: TX and RX are connected together, and the UART itself works",
@@ -70,7 +70,7 @@ void tell_echo(Checkup& checkup) {
       "TX, ground to ground");
 }
 
-/// What helped owners of an RVR whose UART was silent. Source: LIB
+/// Lists remedies of RVR owners for a silent UART. Source: LIB
 void tell_of_uart(Checkup& checkup) {
   checkup.bad("on a serial port an RVR may not listen yet",
               "update it once with the vendor's app: with its first firmware the UART was off");
@@ -83,7 +83,7 @@ void tell_of_uart(Checkup& checkup) {
               "join TX and RX with a wire and run this command again: a port that works echoes");
 }
 
-/// Why nothing answers: what was heard, and what helps where that was nothing at all.
+/// Explains why nothing answers: what was received, and remedies if that was nothing.
 void tell_silence(Checkup& checkup, Link& link, std::string_view what, std::string_view why) {
   constexpr Duration patience = 600ms;
   run::Hail hail(*link.transport);
@@ -98,7 +98,7 @@ void tell_silence(Checkup& checkup, Link& link, std::string_view what, std::stri
     tell_of_uart(checkup);
 }
 
-/// Finds out which robot of packets v2 is there, and looks at it.
+/// Identifies a packets v2 robot and checks it.
 void check_newer(Checkup& checkup, Link& link, std::optional<spec::Robot> told,
                  std::string_view given) {
   const auto newer = find_newer(link, told);
@@ -113,7 +113,7 @@ void check_newer(Checkup& checkup, Link& link, std::optional<spec::Robot> told,
 void check_ball(Context& context, Checkup& checkup, const PortOptions& given,
                 const std::string& robot) {
   const InterruptGuard guard;
-  auto explained = false; // why it does not open
+  auto explained = false; // why it cannot be opened
   auto options = given;
   if (const auto* row = spec::find_robot(robot))
     options.robot = row->robot;

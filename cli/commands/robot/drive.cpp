@@ -27,11 +27,11 @@ namespace {
 
 using run::Pilot;
 
-/// How long a key counts that comes out of a pipe.
+/// How long a key read from a pipe stays pressed.
 constexpr Duration key_time = 200ms;
 constexpr Duration glance = 20ms;
 constexpr Duration between_words = 100ms;
-/// A page says where to go ten times a second while its stick is held.
+/// A page sends its direction ten times a second while the stick is held.
 constexpr Duration page_patience = 600ms;
 
 struct DriveOptions {
@@ -76,7 +76,7 @@ const KeyRow* find_row(const Pressed& pressed) {
   return nullptr;
 }
 
-/// Whole numbers with blanks between them; nothing where it is not so many.
+/// Reads whole numbers separated by blanks; nothing if the count differs.
 template <std::size_t Count>
 std::optional<std::array<int, Count>> numbers_in(std::string_view text) {
   std::array<int, Count> numbers{};
@@ -90,7 +90,7 @@ std::optional<std::array<int, Count>> numbers_in(std::string_view text) {
   return text.empty() ? std::optional(numbers) : std::nullopt;
 }
 
-/// The last three numbers as a colour; nothing where one is none of 0 to 255.
+/// The last three numbers as a colour; nothing if one is outside 0 to 255.
 template <std::size_t Count>
 std::optional<vm::Color> color_in(const std::optional<std::array<int, Count>>& numbers) {
   if (!numbers)
@@ -102,7 +102,7 @@ std::optional<vm::Color> color_in(const std::optional<std::array<int, Count>>& n
                    static_cast<std::uint8_t>(last[2])};
 }
 
-/// `255 200 0 hello`: a colour, then what is said in it.
+/// `255 200 0 hello`: shows the text in the given colour.
 void say_on_matrix(Pilot& pilot, std::string_view body) {
   auto blank = body.find(' ');
   for (int numbers = 1; numbers < 3 && blank != body.npos; ++numbers)
@@ -113,7 +113,7 @@ void say_on_matrix(Pilot& pilot, std::string_view body) {
     pilot.say(std::string(body.substr(blank + 1)), *color);
 }
 
-/// What the page's user does. Anything else is left alone.
+/// Carries out a request from the page; ignores unknown ones.
 void obey_page(Pilot& pilot, std::string_view path, std::string_view body) {
   const auto is_byte = [](int value) { return value >= 0 && value <= UINT8_MAX; };
   if (path == "stop")
@@ -138,7 +138,7 @@ void obey_page(Pilot& pilot, std::string_view path, std::string_view body) {
     pilot.clear_matrix();
 }
 
-/// All that the robot says, with names and units, for the page.
+/// All values of the robot, with names and units, for the page.
 Json values_of(const Pilot& pilot) {
   const auto& s = pilot.sample();
   auto list = Json::array();
@@ -171,10 +171,10 @@ std::string page_text() {
   return text;
 }
 
-/// Somebody at the keys, and perhaps a page beside.
+/// A drive from the keyboard, with or without a page.
 class Session {
 public:
-  /// Whether the link's time is that of a clock, or has to be held to it.
+  /// Tells if the link's time follows the clock, or has to be slowed down to it.
   enum class Pace : std::uint8_t { Link, Clock };
 
   Session(const Context& context, run::Tether& robot, Pilot& pilot, std::string title, Pace pace)
@@ -193,7 +193,7 @@ public:
   }
   const std::string& url() const { return page_->url(); }
 
-  /// Until somebody ends it.
+  /// Drives until the user ends it.
   tl::expected<void, Failure> go(Keys& keys) {
     for (;;) {
       const auto pressed = keys.next(page_ == nullptr ? Keys::Wait::ForPipe : Keys::Wait::No);
@@ -223,7 +223,7 @@ private:
           return served;
       pilot_.watch();
       if (auto pumped = robot_.pump(std::min(until, robot_.now() + glance),
-                                    [&](const run::Said& said) { pilot_.hear(said); });
+                                    [&](const run::RobotMessage& said) { pilot_.hear(said); });
           !pumped)
         return pumped;
       if (pace_ == Pace::Clock)
@@ -289,7 +289,7 @@ tl::expected<void, Failure> drive_by_hand(Context& context, const DriveOptions& 
   }
   if (keys.from_terminal())
     print_note(context, key_help());
-  std::optional<OutputError> unread; // nobody reads any more
+  std::optional<OutputError> unread; // nobody reads the output any more
   const auto end = run::drive_attended(robot, tether, [&]() -> tl::expected<void, Failure> {
     try {
       auto driven = session.go(keys);
@@ -335,8 +335,8 @@ void add_drive(const Command& orb, Context& context) {
   add_sleep_option(command, options->sleeps);
   command.add_flag("--no-aim", options->keep_aim, "keep the robot's heading and position");
   command.add_flag("--page", options->page,
-                   "serves a page with a joystick and live curves, on this computer only");
-  command.add_flag("--open", options->open, "the same, and opens it in a browser");
+                   "serve a page with a joystick and live curves, on this computer only");
+  command.add_flag("--open", options->open, "serve the page and open it in a browser");
   command.footer("Keys: " + key_help());
   command.callback([&context, options] {
     if (const auto done = drive_by_hand(context, *options); !done)

@@ -24,7 +24,7 @@ ExitCode erase(Context& context, uploader::Session& session, const std::string& 
   };
   const auto unchanged = fmt::format("the program in {} is unchanged", area);
   const Step steps[] = {
-      // A running program holds its area.
+      // A running program locks its area.
       {ApiCommand::AbortOrbbasicProgram,
        {},
        {unchanged + ", but what was running may have been stopped; erase again", unchanged}},

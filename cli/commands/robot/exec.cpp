@@ -37,7 +37,7 @@ Failure unknown_to(const Newer& newer, const std::string& name) {
                                        did_you_mean(name, names, "`orb spec robots` lists them"))};
 }
 
-/// Sends a command of packets v2 and prints the answer. A robot that sleeps is woken for it.
+/// Sends a packets v2 command and prints the answer. Wakes a sleeping robot first.
 tl::expected<void, Failure> execute_v2(Context& context, const ExecOptions& options,
                                        run::TalkV2& talk, const Newer& newer) {
   const auto* row = spec::find_v2_command(options.name);
@@ -71,7 +71,7 @@ Failure unknown_command(const std::string& name) {
                       did_you_mean(name, names, "`orb spec api-commands` lists them"))};
 }
 
-/// The same where packets v1 are spoken.
+/// The same for a link with packets v1.
 Failure unknown_to_classic(const std::string& name) {
   if (spec::find_v2_command(name) == nullptr)
     return unknown_command(name);
@@ -80,20 +80,21 @@ Failure unknown_to_classic(const std::string& name) {
                                        name)};
 }
 
-/// Puts what came as an answer to `command` into words or values.
-template <class Told>
-auto with_answer(spec::ApiCommand command, const protocol::Response& response, Told told) {
+/// Decodes the answer to `command` into words or values.
+template <class Describe>
+auto with_answer(spec::ApiCommand command, const protocol::Response& response, Describe describe) {
   protocol::Describer describer;
   const auto asked = protocol::make_command(command, {}, response.seq);
   const auto question = encode(asked);
-  (void)describer.parts(item_of(asked, question)); // the answer's fields are those of the command
+  (void)describer.parts(item_of(asked, question)); // the answer has the fields of the command
   const auto packet = encode(response);
-  return told(describer, item_of(response, packet));
+  return describe(describer, item_of(response, packet));
 }
 
-constexpr Duration patience = 60s; // a ball that levels itself takes its time
+constexpr Duration patience = 60s; // a ball takes time to level itself
 
-/// The message that the answer to a command announces; null for most, and where it only stops.
+/// The message that the answer to a command announces; null for most, and for a command that only
+/// stops.
 const spec::AsyncInfo* announced(spec::ApiCommand command, const Bytes& data) {
   if (command == spec::ApiCommand::SelfLevel && (data.at(0) & spec::self_level_options::start) == 0)
     return nullptr;
@@ -104,7 +105,7 @@ const spec::AsyncInfo* announced(spec::ApiCommand command, const Bytes& data) {
   return row == spec::asyncs.end() ? nullptr : &*row;
 }
 
-/// Waits for a message; nothing where none came in time or the link broke.
+/// Waits for a message; nothing if it did not arrive in time or the link broke.
 std::optional<protocol::Async> wait_for(uploader::Session& session, spec::AsyncId id) {
   auto& inbox = session.inbox();
   const auto find = [&] {
@@ -122,7 +123,7 @@ std::optional<protocol::Async> wait_for(uploader::Session& session, spec::AsyncI
   return message;
 }
 
-/// A message on a line, or as it is where all of it is text.
+/// A message on one line, or unchanged if it is plain text.
 std::string in_words(const protocol::Async& message) {
   const auto packet = encode(message);
   const auto item = item_of(message, packet);
@@ -187,8 +188,8 @@ ExitCode execute_v1(Context& context, const ExecOptions& options, Link& link,
   return told;
 }
 
-/// What is wrong with the words whichever robot answers, as far as that is known: a mistake is told
-/// before anything is opened.
+/// Reports mistakes in the words before anything is opened, as far as they do not depend on the
+/// robot.
 tl::expected<void, Failure> check_words(const Context& context, const ExecOptions& options) {
   const auto* v1 = spec::find_command(options.name);
   const auto* v2 = spec::find_v2_command(options.name);
@@ -235,8 +236,8 @@ void execute(Context& context, const ExecOptions& options) {
   with_robot(context, options.port, options.robot, {classic, newer});
 }
 
-/// Why the command is not for one of several robots.
-std::optional<std::string> lacking_command(const ExecOptions& options, const Member& member) {
+/// Why one of several robots cannot take the command.
+std::optional<std::string> lacking_command(const ExecOptions& options, const RosterMember& member) {
   if (!member.robot)
     return std::nullopt;
   const auto& robot = spec::info(*member.robot);
@@ -283,9 +284,9 @@ void add_exec(const Command& orb, Context& context) {
         return tl::unexpected(unknown_command(options->name));
       return {};
     };
-    many.misfit = [options](const Member& robot) { return lacking_command(*options, robot); };
+    many.misfit = [options](const RosterMember& robot) { return lacking_command(*options, robot); };
     with_robots(context, options->roster, many,
-                [&](Context& own, const Member& robot, const Row* row) {
+                [&](Context& own, const RosterMember& robot, const Row* row) {
                   auto one = *options;
                   one.port = port_of(one.port, robot, row);
                   execute(own, one);

@@ -16,7 +16,7 @@ namespace {
 
 using spec::ApiCommand;
 
-/// A line for a table, where there are several robots.
+/// One table row per robot, used for several robots.
 constexpr std::string_view row_format = "row";
 
 /// The fields of an answer by name, as text.
@@ -116,7 +116,7 @@ Json power_json(ByteView power) {
           {"secondsSinceCharge", fields.number("since charge").value_or(0)}};
 }
 
-/// The same as the text, as one document.
+/// The information of the text form as one JSON document.
 Json info_json(const std::string& port, const uploader::Greeting& greeting) {
   Json json{{"schema", "orb.info/1"}, {"port", port}};
   json.update(versions_json(port, greeting));
@@ -125,8 +125,8 @@ Json info_json(const std::string& port, const uploader::Greeting& greeting) {
   return json;
 }
 
-/// Whether a robot takes a command; nothing where it does not say. It is asked with one that
-/// changes nothing.
+/// Asks if a robot accepts a command, with a request that changes nothing. Nothing if it does not
+/// answer.
 std::optional<bool> takes(uploader::Session& session, ApiCommand command, const Bytes& data) {
   const auto answer = request(session, command, data);
   if (!answer && answer.error().kind != uploader::Report::Kind::Refused)
@@ -142,9 +142,9 @@ std::string_view yes_or_no(std::optional<bool> answer) {
   return !answer ? "unknown" : *answer ? "yes" : "no";
 }
 
-/// What the firmware of a robot over Bluetooth LE can do is written down nowhere, so it is asked.
+/// Queries what the firmware of a robot over Bluetooth LE can do: no document tells.
 void ask_for_programs(uploader::Session& session, std::string& text, Json& json) {
-  const auto nothing = Bytes{static_cast<std::uint8_t>(spec::Area::Ram)}; // is appended
+  const auto nothing = Bytes{static_cast<std::uint8_t>(spec::Area::Ram)}; // appends nothing
   const auto basic = takes(session, ApiCommand::AppendOrbbasicFragment, nothing);
   const auto macros = takes(session, ApiCommand::GetMacroStatus, {});
   text += fmt::format("takes     orbBasic programs: {}, macros: {}\n", yes_or_no(basic),
@@ -155,7 +155,7 @@ void ask_for_programs(uploader::Session& session, std::string& text, Json& json)
     json["takes"]["macros"] = *macros;
 }
 
-/// An answer of a robot of packets v2, for people; empty where it refuses.
+/// The answer of a packets v2 robot as text; empty if it refuses.
 tl::expected<std::string, Failure> told(run::TalkV2& talk, spec::V2Command command) {
   const auto answer = talk.ask(command);
   if (!answer)
@@ -182,8 +182,8 @@ tl::expected<std::string, Failure> told(run::TalkV2& talk, spec::V2Command comma
   return to_printable(text.substr(0, text.find('\0')));
 }
 
-/// The one line for a table of several robots.
-std::string summary(const Json& json) {
+/// The table row of one robot.
+std::string info_summary(const Json& json) {
   std::vector<std::string> parts;
   const auto add = [&](const Json& holder, const char* key, const char* format) {
     if (holder.contains(key))
@@ -208,10 +208,10 @@ void print_info(std::string_view format, const Json& json, const std::string& te
   if (format == "json")
     print_json(json);
   else
-    print_out(format == row_format ? summary(json) : text);
+    print_out(format == row_format ? info_summary(json) : text);
 }
 
-/// What a robot of packets v2 says of itself, a line or a key each.
+/// Prints what a packets v2 robot says about itself, one line or JSON key per answer.
 tl::expected<void, Failure> tell_all_v2(const PortOptions& options, const std::string& format,
                                         run::TalkV2& talk, const Newer& newer) {
   struct Line {
@@ -309,7 +309,7 @@ void add_info(const Command& orb, Context& context) {
     many.prints = Prints::Answer;
     many.json = options->format == "json";
     with_robots(context, options->roster, many,
-                [&](Context& own, const Member& robot, const Row* row) {
+                [&](Context& own, const RosterMember& robot, const Row* row) {
                   const auto in_table = row != nullptr && options->format == "text";
                   tell_all(own, port_of(options->port, robot, row),
                            in_table ? std::string(row_format) : options->format, options->robot);

@@ -11,13 +11,13 @@
 #include "protocol/payload.h"
 #include "report/page.h"
 #include "report/svg.h"
+#include "run/began.h"
 #include "run/start.h"
 #include "run/tether/onlooker.h"
 #include "spec/basic.h"
 #include "spec/macro.h"
-#include "structured/text/words.h"
+#include "structured/text/structured_words.h"
 
-#include <algorithm>
 #include <fmt/format.h>
 #include <memory>
 #include <optional>
@@ -32,31 +32,16 @@ using protocol::Async;
 using protocol::LinkError;
 using spec::AsyncId;
 
-/// How long the built-in ball may be silent before it is asked whether anything still runs.
+/// How long the built-in ball may be silent before checking if anything still runs.
 constexpr Duration look = 100ms;
 
 bool is(const Async& message, AsyncId id) {
   return message.id == static_cast<std::uint8_t>(id);
 }
 
-/// What a ball says of a fault: the line, and a number that its table may not have.
-struct Reported {
-  std::uint16_t line = 0;
-  std::uint16_t code = 0;
-};
-
-std::optional<Reported> fault_in(const Async& message) {
-  if (!is(message, AsyncId::BasicError))
-    return std::nullopt;
-  const auto fields = protocol::read_fields(spec::fields(AsyncId::BasicError), message.data);
-  if (fields.size() != 2)
-    return std::nullopt;
-  return Reported{static_cast<std::uint16_t>(fields[0].number),
-                  static_cast<std::uint16_t>(fields[1].number)};
-}
-
-/// What the source says of a fault; nothing where there is none to look into.
-std::optional<run::ProgramError> explain(const Reported& reported, const Lookup& lookup) {
+/// Looks up a fault in the source; nothing without a source.
+std::optional<run::ProgramError> explain_error(const run::ReportedFault& reported,
+                                               const Lookup& lookup) {
   const auto known = spec::find_error(reported.code);
   if (!known || lookup.input == nullptr)
     return std::nullopt;
@@ -68,9 +53,9 @@ std::string place(const run::LineMap& lines, std::uint32_t robot_line) {
   return words.empty() ? words : words + ": ";
 }
 
-/// Prints the fault that a ball reports: its number alone where the robot's table has no such.
-void print_fault(const Context& context, const Lookup& lookup, const Reported& reported) {
-  if (const auto fault = explain(reported, lookup)) {
+/// Prints a fault that a ball reports; only its number if the robot's table does not have it.
+void print_fault(const Context& context, const Lookup& lookup, const run::ReportedFault& reported) {
+  if (const auto fault = explain_error(reported, lookup)) {
     print_fault(context, *fault);
     return;
   }
@@ -83,12 +68,12 @@ void print_fault(const Context& context, const Lookup& lookup, const Reported& r
                               : fmt::format("error {:02X}h", reported.code)));
 }
 
-/// A message as JSON; a fault has its place and cause as well.
+/// A message as JSON; a fault includes place and cause.
 void print_json_message(const Async& message, const Lookup& lookup, Watched& watched) {
   auto json = message_json(message);
-  const auto reported = fault_in(message);
+  const auto reported = run::fault_in(message);
   watched.faulted |= reported.has_value();
-  if (const auto fault = reported ? explain(*reported, lookup) : std::nullopt) {
+  if (const auto fault = reported ? explain_error(*reported, lookup) : std::nullopt) {
     json["file"] = fault->file;
     json["line"] = fault->place.line;
     json["column"] = fault->place.column;
@@ -100,9 +85,9 @@ void print_json_message(const Async& message, const Lookup& lookup, Watched& wat
   print_json(json);
 }
 
-/// A message as `NAME: FIELD VALUE, …`, without the frame that carried it; the end of a macro,
-/// which comes as a marker of its own, as a sentence.
-std::string words_of(const Async& message) {
+/// A message as `NAME: FIELD VALUE, …`, without its frame. The end of a macro, which arrives as a
+/// special marker, is a sentence.
+std::string message_words(const Async& message) {
   const auto packet = encode(message);
   const auto parts = protocol::Describer().parts(item_of(message, packet));
   const auto number = [&](std::size_t field) { return parts.fields[field].number.value_or(0); };
@@ -126,24 +111,13 @@ void print_message(const Context& context, const Async& message, const Lookup& l
     return;
   }
   if (is(message, AsyncId::BasicErrorText))
-    return; // comes in binary too
-  if (const auto reported = fault_in(message)) {
+    return; // some messages are binary
+  if (const auto reported = run::fault_in(message)) {
     watched.faulted = true;
     print_fault(context, lookup, *reported);
     return;
   }
-  print_out(words_of(message) + "\n");
-}
-
-/// `line 20: Divide by zero`, at its place where the source has no such lines.
-std::string fault_in_words(const run::LineMap& lines, const Reported& fault) {
-  const auto known = spec::find_error(fault.code);
-  const auto where = lines.words(fault.line);
-  return fmt::format(
-      "{}: {}",
-      where.empty() || lines.known != run::Known::FileAndColumn ? fmt::format("line {}", fault.line)
-                                                                : where,
-      known ? std::string(spec::info(*known).text) : fmt::format("error {:02X}h", fault.code));
+  print_out(message_words(message) + "\n");
 }
 
 } // namespace
@@ -165,7 +139,7 @@ Watched monitor(const Context& context, Link& link, uploader::Session& session,
   while (true) {
     while (!inbox.empty()) {
       if (spectator != nullptr && spectator->takes(inbox.front())) {
-        // it is not for people
+        // a format for programs
       } else if (format == "json")
         print_json_message(inbox.front(), lookup, watched);
       else
@@ -191,27 +165,18 @@ Watched monitor(const Context& context, Link& link, uploader::Session& session,
 
 Began watch_start(const Context& context, const Link& link, uploader::Session& session,
                   const Lookup& lookup) {
-  const auto heard = uploader::await_start(session);
-  const auto& inbox = session.inbox();
-  const auto found = std::find_if(inbox.begin(), inbox.end(),
-                                  [](const Async& one) { return fault_in(one).has_value(); });
-  if (found != inbox.end()) {
-    const auto fault = *fault_in(*found);
-    print_fault(context, lookup, fault);
-    const auto stopped =
-        fmt::format("the program stopped at {}", fault_in_words(lookup.lines, fault));
-    if (const auto still = uploader::brake(session); !still)
-      return {ExitCode::BadInput,
-              fmt::format("{}; the ball may be rolling: it has not acknowledged a stop", stopped)};
-    return {ExitCode::BadInput, stopped};
+  const auto began = run::watch_start(session, lookup.lines);
+  if (began.fault) {
+    print_fault(context, lookup, *began.fault);
+    return {ExitCode::BadInput, began.words};
   }
-  if (heard || heard.error().link.kind == LinkError::Kind::Ended)
-    return {ExitCode::Done, "started"};
-  if (heard.error().link.kind == LinkError::Kind::Interrupted)
+  if (!began.unheard || began.unheard->link.kind == LinkError::Kind::Ended)
+    return {ExitCode::Done, began.words};
+  if (began.unheard->link.kind == LinkError::Kind::Interrupted)
     return {ExitCode::Interrupted,
             "interrupted; the program was started, and " + robot_goes_on(link)};
   return {ExitCode::LinkLost, fmt::format("the program was started, then the link was lost: {}; {}",
-                                          heard.error().link.message, robot_goes_on(link))};
+                                          began.unheard->link.message, robot_goes_on(link))};
 }
 
 namespace {
@@ -221,14 +186,14 @@ struct MonitorOptions {
   std::string robot;
   std::string map;
   std::string format = "text";
-  std::string report; ///< a file for what was seen; empty for none
+  std::string report; ///< file for the report; empty for none
   std::string svg;
-  std::string time; ///< how long it listens; empty: until it is ended
+  std::string time; ///< how long to listen; empty: until interrupted
 
   bool draws() const { return !report.empty() || !svg.empty(); }
 };
 
-/// Gathers what a ball does whose own program drives it.
+/// Records a ball that is driven by its own program.
 class Camera final : public Spectator {
 public:
   Camera(uploader::Session& session, Duration lasts, report::Journey* journey)
@@ -237,7 +202,7 @@ public:
       onlooker_.emplace(*journey);
   }
 
-  /// The ball begins to say what it feels.
+  /// Starts the sensor stream.
   tl::expected<void, Failure> begin() {
     return onlooker_ ? ask_all(onlooker_->stream()) : tl::expected<void, Failure>();
   }
@@ -246,7 +211,7 @@ public:
       static_cast<void>(ask_all(onlooker_->silence())); // the link may be gone
     ended_ = true;
   }
-  /// Also where nobody reads any more.
+  /// Also ends the stream if nobody reads any more.
   ~Camera() override { end(); }
   Camera(const Camera&) = delete;
   Camera& operator=(const Camera&) = delete;
@@ -286,7 +251,7 @@ private:
   bool ended_ = false;
 };
 
-/// The report and the drawing of what was seen.
+/// Writes the report and the drawing.
 tl::expected<void, IoError> write_seen(const MonitorOptions& options, report::Journey& journey,
                                        Duration time) {
   journey.finish(time, "abort", "watched");
@@ -332,8 +297,8 @@ tl::expected<run::LineMap, Failure> read_map(const std::string& path) {
   return *std::move(map);
 }
 
-/// The program that a map is of; nothing where it is not there any more, or where the map says the
-/// place of a line better than the source, which has no numbers.
+/// Reads the program that a map belongs to. Nothing if the file is gone, or if only the map knows
+/// line places because the source has no numbers.
 std::vector<run::Input> read_program(const run::LineMap& map) {
   if (map.files.empty() || map.known == run::Known::FileAndColumn)
     return {};
@@ -341,7 +306,7 @@ std::vector<run::Input> read_program(const run::LineMap& map) {
   return inputs && inputs->front().program ? *std::move(inputs) : std::vector<run::Input>();
 }
 
-/// Why there is no page of a robot that keeps no programs.
+/// Explains why a robot that stores no programs has no page.
 Failure draws_nothing(const Newer& robot, std::string_view port) {
   return {ExitCode::Usage,
           fmt::format("the robot is {}, which runs no programs by itself; `orb run PROGRAM --port "

@@ -35,10 +35,10 @@ struct PortsOptions {
   std::vector<std::string> saved;
 };
 
-/// A robot that can be flashed comes by its name, where it is the only one of that name. Who has
-/// given it another one is told so.
-Json describe(const Config& config, const uploader::SeenDevice& device,
-              const std::vector<uploader::SeenDevice>& all) {
+/// Describes a flashable robot by name, if the name is unique. Adds the user's own name for it, if
+/// there is one.
+Json device_json(const Config& config, const uploader::SeenDevice& device,
+                 const std::vector<uploader::SeenDevice>& all) {
   const auto* robot = spec::find_ble_name(device.name);
   const auto same = std::ranges::count(all, device.name, &uploader::SeenDevice::name);
   const auto by_name = robot != nullptr && same == 1;
@@ -62,8 +62,8 @@ Json describe(const Config& config, const uploader::SeenDevice& device,
   return json;
 }
 
-/// Listens for robots over Bluetooth LE; nothing where nobody listened. Why that cannot be is a
-/// note; only an interruption fails.
+/// Scans for robots over Bluetooth LE; nothing if scanning is impossible, which prints a note.
+/// Fails only if interrupted.
 tl::expected<std::optional<std::vector<uploader::SeenDevice>>, Failure> scan(const Context& context,
                                                                              Duration time) {
   using namespace std::chrono;
@@ -86,13 +86,13 @@ tl::expected<std::optional<std::vector<uploader::SeenDevice>>, Failure> scan(con
   return std::nullopt;
 }
 
-/// Robots first; what is none is counted, and listed with -v.
+/// Adds robots first. Other devices are counted, and listed with -v.
 void add_robots(const Context& context, const std::vector<uploader::SeenDevice>& devices,
                 const std::string& listened, Json& ports) {
   std::size_t others = 0;
   for (const auto& device : devices)
     if (spec::find_ble_name(device.name) != nullptr)
-      ports.push_back(describe(context.config, device, devices));
+      ports.push_back(device_json(context.config, device, devices));
     else
       ++others;
   if (others == devices.size())
@@ -107,11 +107,12 @@ void add_robots(const Context& context, const std::vector<uploader::SeenDevice>&
                                            plural(others, "other device")));
   for (const auto& device : devices)
     if (spec::find_ble_name(device.name) == nullptr)
-      ports.push_back(describe(context.config, device, devices));
+      ports.push_back(device_json(context.config, device, devices));
 }
 
-void list(Context& context, const PortsOptions& options) {
-  const auto devices = scan(context, *parse_duration(options.scan, 1s)); // the option is checked
+void list_ports(Context& context, const PortsOptions& options) {
+  // the option has been checked
+  const auto devices = scan(context, *parse_duration(options.scan, 1s));
   if (!devices)
     return fail(context, devices.error());
   auto ports = Json::array();
@@ -174,7 +175,7 @@ void add_ports(const Command& orb, Context& context) {
       if (context.exit == ExitCode::Done)
         save_port(context, assignment);
     if (options->saved.empty())
-      list(context, *options);
+      list_ports(context, *options);
   });
 }
 

@@ -7,7 +7,7 @@
 
 namespace orb::cli {
 
-/// Something that could be a ball.
+/// A device that could be a ball.
 struct Port {
   std::string url;
   std::string what;

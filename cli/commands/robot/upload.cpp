@@ -25,6 +25,7 @@ namespace {
 
 using uploader::Report;
 
+/// The options of `orb upload`. Large because each of them is a field.
 struct UploadOptions {
   RosterOptions roster;
   std::vector<std::string> files;
@@ -45,7 +46,7 @@ struct UploadOptions {
   int attempts = uploader::Budgets{}.attempts;
 };
 
-ExitCode fail(const Context& context, ExitCode exit, std::string_view message) {
+ExitCode fail_upload(const Context& context, ExitCode exit, std::string_view message) {
   print_error(context, message);
   return exit;
 }
@@ -56,7 +57,7 @@ tl::expected<std::vector<run::Input>, Failure> load_all(const Context& context,
   if (!inputs)
     return inputs;
   bool errors = false;
-  bool sendable = true; // as it is: there is something to send
+  bool sendable = true; // remains true if there is something to send
   for (const auto& input : *inputs) {
     errors =
         print_findings(context, options.no_check ? input.errors : run::findings(input)) || errors;
@@ -115,8 +116,8 @@ ExitCode dry_run(const Context& context, const UploadOptions& options,
   for (const auto& macro : delivery.macros) {
     const auto plan = make_plan(macro.job, budgets);
     if (!plan)
-      return fail(context, ExitCode::BadInput,
-                  fmt::format("{}: {}", macro.name, plan.error().message));
+      return fail_upload(context, ExitCode::BadInput,
+                         fmt::format("{}: {}", macro.name, plan.error().message));
     print_plan(context, macro.name, *plan);
   }
   if (delivery.program) {
@@ -125,8 +126,8 @@ ExitCode dry_run(const Context& context, const UploadOptions& options,
       firmware.ram_bytes = static_cast<std::size_t>(options.target.ram);
     const auto plan = make_plan(*delivery.program, firmware, budgets);
     if (!plan)
-      return fail(context, ExitCode::BadInput,
-                  fmt::format("{}: {}", delivery.program_name, plan.error().message));
+      return fail_upload(context, ExitCode::BadInput,
+                         fmt::format("{}: {}", delivery.program_name, plan.error().message));
     print_plan(context, delivery.program_name, *plan);
   }
   return ExitCode::Done;
@@ -137,9 +138,9 @@ Lookup lookup_of(const std::vector<run::Input>& inputs) {
   return first == nullptr ? Lookup{} : Lookup{first->program->lines, first};
 }
 
-/// What a success leaves open where the ball does not count packets.
+/// What stays uncertain after a success if the ball does not count packets.
 std::string uncounted_note(std::size_t pieces) {
-  constexpr double assumed = 0.01; // of packets duplicated, and of packets lost
+  constexpr double assumed = 0.01; // assumed share of duplicated or lost packets
   return fmt::format(
       "note: this ball does not count packets, so a duplicate piece goes unnoticed "
       "if an answer is lost as well: in at most {1:.2f} % of uploads of {2} piece{3} on "
@@ -148,8 +149,8 @@ std::string uncounted_note(std::size_t pieces) {
       pieces == 1 ? "" : "s");
 }
 
-/// Why a ball with this firmware cannot run what it is to get; nothing where it can. One robot has
-/// all that it lacks printed, of several each has a sentence.
+/// Why a ball with this firmware cannot run the program; nothing if it can. Prints all reasons for
+/// a single robot; returns one sentence for each of several.
 std::optional<std::string> newer_than(const Context& context, std::span<const run::Input> inputs,
                                       const uploader::Greeting& greeting, const Row* row) {
   const auto lacks = run::lacks_of(inputs, greeting.firmware);
@@ -162,12 +163,12 @@ std::optional<std::string> newer_than(const Context& context, std::span<const ru
                      run::in_words(lacks, greeting));
 }
 
-/// Tells how it ended, and watches what runs where that was asked for.
+/// Reports the outcome; monitors the program if asked to.
 ExitCode finish(const Context& context, const UploadOptions& options, Link& link,
                 uploader::Session& session, const Report& report, Duration took,
                 const Lookup& lookup, Row* row) {
   if (report.kind != Report::Kind::Done)
-    return fail(context, exit_code(report.kind), report.message);
+    return fail_upload(context, exit_code(report.kind), report.message);
   const auto done = fmt::format(
       "{}, {} packets sent, {:.2f} s{}", report.message, session.counts().packets_out,
       static_cast<double>(took.count()) / 1e9, link.is_sim ? ", on the built-in virtual ball" : "");
@@ -179,11 +180,11 @@ ExitCode finish(const Context& context, const UploadOptions& options, Link& link
     print_note(context, uncounted_note(report.uncounted));
   auto exit = ExitCode::Done;
   if (options.run && !options.monitor) {
-    // A macro says nothing when it fails.
+    // A macro reports nothing when it fails.
     const auto began = lookup.input != nullptr ? watch_start(context, link, session, lookup)
                                                : Began{ExitCode::Done, "started"};
     if (began.exit != ExitCode::Done)
-      return fail(context, began.exit, began.words);
+      return fail_upload(context, began.exit, began.words);
     if (row != nullptr)
       row->set_verdict(fmt::format("{}; {}", done, began.words));
     else
@@ -204,22 +205,23 @@ ExitCode finish(const Context& context, const UploadOptions& options, Link& link
   return exit == ExitCode::Done ? slept.exit : exit;
 }
 
-/// Why the robot at the other end takes no program.
+/// Explains why the robot at the other end takes no program.
 ExitCode refuse_newer(const Context& context, const UploadOptions& options, Link& link) {
   const auto newer = find_newer(link, link.named);
   const auto why = newer ? stores_nothing(*newer, options.port.port) : newer.error();
-  return fail(context, why.code, why.message);
+  return fail_upload(context, why.code, why.message);
 }
 
 ExitCode send(const Context& context, const UploadOptions& options,
               const uploader::Delivery& delivery, const Lookup& lookup, Row* row) {
-  const InterruptGuard guard; // from here on the last word is what is on the ball
+  // from here on, finish properly: the last report tells what is on the ball
+  const InterruptGuard guard;
   uploader::OnBleStep on_step;
   if (row != nullptr)
     on_step = [row](auto step, const auto& found) { row->on_step(step, found); };
   auto link = open_link(context, options.port, on_step);
   if (!link)
-    return fail(context, link.error().code, link.error().message);
+    return fail_upload(context, link.error().code, link.error().message);
   link->budgets.attempts = options.attempts;
   if (link->packets == spec::Packets::V2)
     return link->finish(context, refuse_newer(context, options, *link));
@@ -233,7 +235,7 @@ ExitCode send(const Context& context, const UploadOptions& options,
   if (row != nullptr) {
     report = deliver(session, delivery, battery, *row);
   } else {
-    ProgressBar progress(context); // is off the screen before anything is told
+    ProgressBar progress(context); // removed from the screen before anything else is printed
     report = deliver(session, delivery, battery, progress);
   }
   if (hail.answered() == spec::Packets::V2)
@@ -242,8 +244,8 @@ ExitCode send(const Context& context, const UploadOptions& options,
                                       session.now() - start, lookup, row));
 }
 
-/// Why the upload is not for one of several robots.
-std::optional<std::string> misfit(const UploadOptions& options, const Member& member) {
+/// Why one of several robots cannot take the upload.
+std::optional<std::string> misfit(const UploadOptions& options, const RosterMember& member) {
   if (!member.robot || spec::info(*member.robot).packets == spec::Packets::V1)
     return std::nullopt;
   return fmt::format("is a {}, which stores no programs; omit it: `orb run {} {}--port {}` "
@@ -253,7 +255,7 @@ std::optional<std::string> misfit(const UploadOptions& options, const Member& me
                      member.port);
 }
 
-/// Shows the packets for the one robot that is named: its link says how they are packed.
+/// Prints the packets for a single robot: its link decides how they are packed.
 void dry_run(Context& context, UploadOptions& options, const uploader::Delivery& delivery) {
   if (!options.roster.file.empty() || options.roster.ports.size() > 1)
     return cli::fail(context, {ExitCode::Usage, "`--dry-run` shows the packets for one robot; name "
@@ -293,18 +295,19 @@ void upload(Context& context, UploadOptions& options) {
       return tl::unexpected(listens_to_one());
     return {};
   };
-  many.misfit = [&](const Member& robot) { return misfit(options, robot); };
-  with_robots(context, options.roster, many, [&](Context& own, const Member& robot, Row* row) {
-    auto one = options;
-    one.port = port_of(one.port, robot, row);
-    auto own_delivery = *delivery;
-    own_delivery.port = robot.port;
-    if (!options.no_check)
-      own_delivery.misfit = [&](const uploader::Greeting& greeting) {
-        return newer_than(own, *inputs, greeting, row);
-      };
-    own.exit = send(own, one, own_delivery, lookup_of(*inputs), row);
-  });
+  many.misfit = [&](const RosterMember& robot) { return misfit(options, robot); };
+  with_robots(context, options.roster, many,
+              [&](Context& own, const RosterMember& robot, Row* row) {
+                auto one = options;
+                one.port = port_of(one.port, robot, row);
+                auto own_delivery = *delivery;
+                own_delivery.port = robot.port;
+                if (!options.no_check)
+                  own_delivery.misfit = [&](const uploader::Greeting& greeting) {
+                    return newer_than(own, *inputs, greeting, row);
+                  };
+                own.exit = send(own, one, own_delivery, lookup_of(*inputs), row);
+              });
 }
 
 } // namespace

@@ -16,10 +16,10 @@ namespace {
 
 using protocol::LinkError;
 
-constexpr Duration between_samples = 1s; ///< that are printed
+constexpr Duration between_samples = 1s; ///< between printed samples
 constexpr Duration between_batteries = 10s;
 
-/// Prints what comes, by name and fields.
+/// Prints messages by name and fields.
 class Print {
 public:
   explicit Print(std::string_view format) : json_(format == "json") {}
@@ -57,7 +57,7 @@ public:
 
 private:
   static double rounded(double value) { return std::round(value * 10) / 10 + 0.0; }
-  /// Without the sign of a zero.
+  /// Avoids `-0`.
   static double whole(double value) { return std::round(value) + 0.0; }
   static void message(std::string_view name, Json fields) {
     print_json({{"kind", "message"}, {"name", name}, {"fields", std::move(fields)}});
@@ -79,7 +79,7 @@ public:
   }
   Watch(const Watch&) = delete;
   Watch& operator=(const Watch&) = delete;
-  /// Silences it, also where nobody reads any more.
+  /// Ends the streams, even if nobody reads any more.
   ~Watch() {
     static_cast<void>(ask_all(wire_->silence())); // the link may be gone
     static_cast<void>(ask_all(collisions(wire_->teardown())));
@@ -103,7 +103,8 @@ private:
     const auto& row = spec::info(command);
     return {row.did(), row.cid(), {}, run::Request::Need::Must};
   }
-  /// Of what readies a robot for a run, what it needs to tell of collisions: nothing moves.
+  /// Selects the preparations for a run that enable collision messages; none of them moves the
+  /// robot.
   static std::vector<run::Request> collisions(std::vector<run::Request> all) {
     const auto& row = spec::info(spec::V2Command::CollisionDetection);
     std::erase_if(
@@ -118,7 +119,7 @@ private:
     return {};
   }
 
-  /// By what the robot takes.
+  /// Enables collision messages with the command that the robot has.
   tl::expected<void, Failure> detect_collisions() {
     for (const auto& one : collisions(wire_->setup(run::Aim::Keep))) {
       const auto answer = ask(one);
@@ -132,7 +133,7 @@ private:
   tl::expected<void, Failure> ask_battery() {
     battery_at_ = now() + between_batteries;
     auto request = wire_->ask_battery();
-    request.need = run::Request::Need::Try; // it may be busy: it is asked again
+    request.need = run::Request::Need::Try; // it may be busy: repeat the request
     const auto answer = ask(request);
     if (!answer)
       return tl::unexpected(answer.error());
@@ -144,7 +145,7 @@ private:
     return {};
   }
 
-  /// Sends until it is answered; a refusal of what can be done without is no failure.
+  /// Repeats a request until it is answered; refusing an optional one is not a failure.
   tl::expected<std::optional<Bytes>, Failure> ask(const run::Request& request) {
     constexpr int attempts = 3;
     constexpr Duration patience = 700ms;
@@ -179,7 +180,7 @@ private:
       return tl::unexpected(lost(bytes.error()));
     wire_->feed(*bytes);
     while (const auto said = wire_->next()) {
-      if (const auto* answer = std::get_if<run::Said::Answer>(&said->what))
+      if (const auto* answer = std::get_if<run::RobotMessage::Answer>(&said->what))
         answer_ = *answer;
       else if (const auto* collision = std::get_if<vm::event::Collision>(&said->what))
         print_.collision(*collision);
@@ -201,9 +202,9 @@ private:
   protocol::Transport& link_;
   std::unique_ptr<run::RobotWire> wire_;
   Print print_;
-  std::optional<run::Said::Answer> answer_; ///< the last that came
+  std::optional<run::RobotMessage::Answer> answer_; ///< the latest answer
   std::uint8_t seq_ = 0;
-  Instant sample_at_{}; ///< the next that is printed
+  Instant sample_at_{}; ///< when the next sample is printed
   Instant battery_at_{};
   double volts_ = 0;
 };
@@ -216,10 +217,10 @@ tl::expected<void, Failure> watch_newer(const Context& context, Link& link, cons
   auto begun = watch.begin();
   if (begun) {
     print_note(context, lasts == Duration{} ? "listening; Ctrl-C to stop" : "listening");
-    constexpr Duration of_sim = 1s; // it stands there, and its time costs nothing
+    constexpr Duration of_sim = 1s; // the virtual robot does not move, and its time costs nothing
     begun = watch.listen(link.is_sim && lasts == Duration{} ? of_sim : lasts);
     if (!begun && begun.error().code == ExitCode::Interrupted)
-      begun = {}; // that is how it ends
+      begun = {}; // this is the normal end
   }
   return begun;
 }

@@ -7,10 +7,9 @@
 
 namespace orb::cli {
 
-/// Prints what a robot of packets v2 feels until Ctrl-C or for `lasts`, where that is not 0: where
-/// it is and how it lies every second, its collisions as they come, the voltage of its battery.
-/// With the format `json` each is a line of JSON (docs/json.md). The robot is silent again
-/// afterwards.
+/// Prints the sensors of a packets v2 robot until Ctrl-C, or for `lasts` if that is not 0: position
+/// and attitude every second, collisions as they happen, the battery voltage. With the format
+/// `json`, each is a line of JSON (docs/reference/json.md). Silences the robot again at the end.
 tl::expected<void, Failure> watch_newer(const Context& context, Link& link, const Newer& newer,
                                         Duration lasts, std::string_view format);
 

@@ -1,8 +1,8 @@
 #include "editor/languages/structured/hints.h"
 
 #include "editor/languages/shape.h"
-#include "editor/text.h"
-#include "editor/words.h"
+#include "editor/text_places.h"
+#include "editor/word_at.h"
 #include "spec/limits.h"
 
 #include <algorithm>
@@ -14,7 +14,7 @@ namespace {
 using structured::Compiled;
 using structured::Kind;
 
-/// The bytes of the image that each routine takes where it stands.
+/// Bytes of the image for each routine, by its place.
 std::map<std::uint32_t, std::uint32_t> bytes_of(const Compiled& compiled) {
   std::map<std::uint32_t, std::uint32_t> bytes;
   const auto& image = compiled.image;
@@ -23,7 +23,7 @@ std::map<std::uint32_t, std::uint32_t> bytes_of(const Compiled& compiled) {
   return bytes;
 }
 
-/// Numbers and constants given to the robot's statements; a duration says itself.
+/// Adds hints for numbers and constants in the robot's statements; a duration needs none.
 void hint_numbers(const Compiled& compiled, std::uint32_t end, std::vector<Hint>& found) {
   for (const auto& statement : compiled.program.statements) {
     if (statement.kind != Kind::Robot || statement.span.end > end)
@@ -48,7 +48,7 @@ void hint_numbers(const Compiled& compiled, std::uint32_t end, std::vector<Hint>
 } // namespace
 
 std::map<std::uint32_t, char> letters_of(const Compiled& compiled) {
-  std::map<std::uint32_t, char> letters; // by where the name is declared
+  std::map<std::uint32_t, char> letters; // by place of the declaration
   for (std::size_t v = 1; v < compiled.code.variables.size() && v < compiled.letters.of.size();
        ++v) {
     const auto symbol = compiled.code.variables[v].symbol;

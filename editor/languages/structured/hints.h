@@ -1,7 +1,7 @@
 #pragma once
 
 #include "editor/language.h"
-#include "editor/languages/structured/names.h"
+#include "editor/languages/structured/structured_names.h"
 
 #include <cstdint>
 #include <map>
@@ -9,12 +9,11 @@
 
 namespace orb::editor {
 
-/// The letter of the robot that holds each name of a program that compiles, by where the name is
-/// declared.
+/// The letter that holds each name of a compiled program, by place of the declaration.
 std::map<std::uint32_t, char> letters_of(const structured::Compiled& compiled);
 
-/// What the arguments of the robot's statements are, which letters hold variables, how many bytes
-/// each routine takes.
+/// Hints: parameter names of the robot's statements, the letters of variables, the bytes of each
+/// routine.
 std::vector<Hint> structured_hints(const Source& source, const LanguageOptions& options);
 
 } // namespace orb::editor

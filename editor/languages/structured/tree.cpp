@@ -4,9 +4,9 @@
 #include "spec/basic.h"
 #include "spec/colours.h"
 #include "structured/layout/layout.h"
-#include "structured/text/blocks.h"
-#include "structured/text/parse.h"
-#include "structured/text/words.h"
+#include "structured/text/link_blocks.h"
+#include "structured/text/parse_structured.h"
+#include "structured/text/structured_words.h"
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
@@ -19,7 +19,7 @@ namespace {
 using namespace structured;
 using Json = nlohmann::ordered_json;
 
-/// What is larger is shown as its text.
+/// Deeper expressions are shown as text.
 constexpr std::size_t deepest_expression = 64;
 constexpr std::size_t most_items = 64;
 constexpr std::uint16_t deepest_block = 64;
@@ -82,7 +82,7 @@ std::string_view name_of(ItemKind kind) {
   return {};
 }
 
-/// What stands behind the word of a statement of the robot.
+/// The name of what follows a statement's word.
 std::string_view name_of(spec::Form form) {
   switch (form) {
   case spec::Form::Arguments: return "arguments";
@@ -119,9 +119,9 @@ public:
 private:
   const Statement& statement(std::uint32_t i) const { return program_.statements[i]; }
 
-  // ---- which statements have a form besides their text
+  // ---- statements with a structured form
 
-  /// A block does where all its parts do, down to its end.
+  /// A block has one if all its parts do, down to its end.
   void find_blocks() {
     shown_.assign(program_.statements.size(), true);
     for (std::uint32_t i = 0; i < program_.statements.size(); ++i) {
@@ -173,7 +173,7 @@ private:
            kind == NodeKind::Or;
   }
 
-  /// Widens a span by the parentheses around it, unless they are those of a call.
+  /// Extends a span to the parentheses around it, except those of a call.
   bool take_group(Span& span) const {
     const std::string_view text = program_.text;
     const auto is_space = [](char c) { return is_blank(c) || is_line_end(c); };
@@ -220,7 +220,7 @@ private:
 
   // ---- rows
 
-  /// The row that begins in line `at`, which becomes the line after it.
+  /// Returns the row that begins on line `at`, and moves `at` past it.
   Json row(std::size_t& at) {
     const auto first = at;
     const auto& line = lines_[first];
@@ -251,7 +251,7 @@ private:
     return true;
   }
 
-  /// The line after the one in which the statements end that begin in line `first`.
+  /// The line after the end of the statements that begin on line `first`.
   std::size_t end_of_statements(std::size_t first) const {
     const auto end = statement(lines_[first].statements_end - 1).span.end;
     auto at = first + 1;
@@ -260,7 +260,7 @@ private:
     return at;
   }
 
-  /// The same of what cannot be shown: comments that stand alone below it are none of it.
+  /// The same for text without a form; comments below it on lines of their own are separate.
   std::size_t end_of_text(std::size_t first) const {
     auto end = first + 1;
     for (auto at = end;
@@ -348,7 +348,7 @@ private:
 
   // ---- expressions
 
-  /// A node and, after it, its operands.
+  /// A node followed by its operands.
   Json expression(std::uint32_t root) const {
     const auto& node = program_.nodes[root];
     const auto operands = operands_of(root);
@@ -394,7 +394,7 @@ private:
     return keyword_words[static_cast<std::size_t>(keyword)];
   }
 
-  /// `<>` as well as `!=` is what a program may write.
+  /// A program may write `<>` or `!=`.
   std::string_view sign_of(const std::vector<std::uint32_t>& operands) const {
     const auto between = program_.text_of(
         {measures_[operands.front()].outside.end, measures_[operands.back()].outside.begin});
@@ -403,8 +403,7 @@ private:
     return between.substr(at, size);
   }
 
-  /// Of a node: where it stands with the parentheses around it, how many of these there are, how
-  /// many levels of operands it has.
+  /// The span of a node including parentheses, their number, and the depth of its operands.
   struct Measure {
     Span outside;
     std::uint8_t groups = 0;
@@ -414,8 +413,8 @@ private:
   Source source_;
   Program program_;
   std::vector<LaidLine> lines_;
-  std::vector<bool> shown_;       ///< of statements
-  std::vector<Measure> measures_; ///< of nodes
+  std::vector<bool> shown_;       ///< by statement
+  std::vector<Measure> measures_; ///< by node
 };
 
 } // namespace

@@ -1,8 +1,8 @@
-// The fields of blocks. A field holds what stands in the text, so that nothing is lost of a text that is shown.
+// The fields of blocks. A field holds the text as written, so that nothing is lost.
 
 import { t } from "../dom.js";
 
-/** What `read_numeral` takes, and a minus sign before it. */
+/** What `read_numeral` accepts, with an optional minus sign. */
 const numeral = /^-?(?:0x[0-9a-f]+|\d+|\d+(?:\.\d{1,9})?(?:ms|s|min))$/i;
 const milliseconds = { ms: 1, s: 1000, min: 60_000 };
 const value_of = text => {
@@ -10,14 +10,14 @@ const value_of = text => {
   return unit ? Math.round(parseFloat(text) * milliseconds[unit.toLowerCase()]) : Number(text);
 };
 const name = /^[a-z_]\w*$/i;
-/** Characters of a comment or of a line that has no block. */
+/** Characters of a comment, or of a line without a block. */
 const longest_shown = 70;
 
 export function make_fields({ FieldTextInput, FieldDropdown, dialog }, words) {
   const taken = new Set([...words.statements, ...words.sensors, ...words.functions, ...words.keywords].map(({ word }) => word.toLowerCase()));
   const is_name = text => name.test(text) && text.length <= words.longest_name && !taken.has(text.toLowerCase());
 
-  /** A number as it is written: `0x7F`, `1.5s`. Somebody who types one is kept in the range of where it stands. */
+  /** A number as written: `0x7F`, `1.5s`. Typing is limited to the range of its place. */
   class NumeralField extends FieldTextInput {
     doClassValidation_(text) {
       text = String(text).trim();
@@ -28,14 +28,14 @@ export function make_fields({ FieldTextInput, FieldDropdown, dialog }, words) {
       const value = value_of(text);
       return value < range.least ? String(range.least) : value > range.greatest ? String(range.greatest) : text;
     }
-    /** What the tables allow where it stands. */
+    /** The range from the tables. */
     range() {
       const input = this.getSourceBlock()?.outputConnection?.targetConnection?.getParentInput();
       return input?.getSourceBlock().ranges?.[input.name];
     }
   }
 
-  /** A text that may be long: shown up to a word's end, so that what is seen is part of what is read aloud. */
+  /** A text that may be long: cut at a word's end, so that what is shown is part of what a screen reader reads. */
   class LongField extends FieldTextInput {
     getDisplayText_() {
       const text = this.getText();
@@ -45,7 +45,7 @@ export function make_fields({ FieldTextInput, FieldDropdown, dialog }, words) {
     }
   }
 
-  /** A text of which `fits` tells what somebody may type. */
+  /** A text; `fits` decides what may be typed. */
   class CheckedField extends FieldTextInput {
     constructor(text, fits) {
       super(text);
@@ -57,7 +57,7 @@ export function make_fields({ FieldTextInput, FieldDropdown, dialog }, words) {
   }
   const list_of_names = text => text.trim() === "" || text.split(",").every(one => is_name(one.trim()));
 
-  /** A choice among `options(block)`, which are looked for when it opens. What a text has is among them, whatever it is. */
+  /** A choice among `options(block)`, evaluated on opening. The current value is always among them. */
   class ChoiceField extends FieldDropdown {
     constructor(value, options, { look = one => one || " ", more = [] } = {}) {
       super(function () {
@@ -87,7 +87,7 @@ export function make_fields({ FieldTextInput, FieldDropdown, dialog }, words) {
     }
   }
 
-  /** A name of the program, of a kind that `of` tells, or a new one. */
+  /** The entry for a new name; `of` gives the kind. */
   const another = "\n";
   class NameField extends ChoiceField {
     constructor(value, of) {
@@ -105,7 +105,7 @@ export function make_fields({ FieldTextInput, FieldDropdown, dialog }, words) {
   return { NumeralField, LongField, CheckedField, ChoiceField, NameField, is_name, list_of_names };
 }
 
-/** The names that the blocks of a program make, of the kinds in `of`, each once. */
+/** The distinct names that a program's blocks define, of the kinds in `of`. */
 export function names_in(workspace, of) {
   const names = new Map();
   for (const block of workspace.getAllBlocks(false))

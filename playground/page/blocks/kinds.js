@@ -1,20 +1,37 @@
-// The blocks, from the tables: how each looks, which names it makes, and what it writes into the text.
-// A block is called after what it stands for in the tree of the engine (playground/README.md).
+// The blocks, generated from the tables: how each looks, which names it defines, and what it writes into the text.
+// A block is named after what it represents in the engine's tree (playground/README.md).
 //
-// `memory` of a block is what it does not show: how its line was laid out, that it follows a blank line. Where a
-// statement is unchanged, its line is written as it was.
+// `memory` of a block holds what it does not show, such as its line's layout or a preceding blank line. An unchanged
+// statement is written as it was.
 
 import { t } from "../dom.js";
 import { make_fields } from "./fields.js";
 
-/** Where a statement of the robot belongs; the others are in their own drawer. */
+/** The drawer of each robot statement; others are in a separate drawer. */
 const drawers = { goroll: "drive", raw: "drive", basflg: "drive", heading: "turn", locate: "turn", RGB: "light", LEDC: "light", backLED: "light",
   delay: "wait", sleep: "wait", end: "start", reset: "start", random: "sensors", input: "sensors", print: "print", macrun: "subs", mackill: "subs",
   data: "names", read: "names", rstr: "names", tron: "print", troff: "print" };
 
-/** How strongly the parts of an expression hold together; a part that holds less than what is around it wants parentheses. */
+/** What a statement of the robot does, as a sentence with holes for its values. */
+const sentences = {
+  goroll: "drive heading {heading} at speed {speed}", raw: "left motor mode {left_mode} power {left_power}, right motor mode {right_mode} power {right_power}",
+  basflg: "set flags {flags}", heading: "call this direction {heading}", locate: "call this place {x} , {y}",
+  RGB: "light up: red {red} green {green} blue {blue}", LEDC: "light up in colour {colour}", backLED: "aiming light {brightness}",
+  delay: "wait {milliseconds}", sleep: "sleep {seconds} then macro {macro} line {line}", end: "end the program", reset: "start the program again",
+  random: "shuffle the random numbers", macrun: "run macro {macro}", mackill: "stop the macro", rstr: "begin the data again",
+  tron: "start printing line numbers", troff: "stop printing line numbers", data: "data", read: "read the next into", input: "ask for",
+};
+/** The verb of a roll, chosen by its last value. */
+const rolls = { 1: "drive", 0: "brake", 2: "turn fast" }, any_roll = "{go} heading {heading} at speed {speed}";
+/** True if that covers a roll's last value. */
+export function is_roll({ word, items }) {
+  const last = word === "goroll" && items?.length === 3 ? items[2].value : null;
+  return last?.kind === "number" && !last.groups && Object.hasOwn(rolls, last.text);
+}
+
+/** Binding strength of operators; a part that binds weaker than its surroundings needs parentheses. */
 export const levels = { any: 0, or: 1, and: 2, simple: 3, sum: 5, product: 6, factor: 7, whole: 8 };
-/** Of a value: how strongly its own parts hold together, and what the parts must hold at least. */
+/** For a value: how strongly it binds, and how strongly its parts must bind. */
 export function hold(kind, text) {
   const pair = (own, right = own + 1) => ({ own, parts: [own, right] });
   switch (kind) {
@@ -45,9 +62,9 @@ export function define_blocks(Blockly, words) {
   const kinds = {};
   const text_of = (block, field) => block.getFieldValue(field);
 
-  // ---- pieces that blocks are made of ----
+  // ---- building blocks' parts ----
   const condition = ["Boolean", "Any"], anything = ["Any", "Boolean"], item = ["Any", "Boolean", "String"];
-  /** A word of the program; every other label is said in the language of the page. */
+  /** A word of the program; all other labels are in the language of the page. */
   const as_is = word => new FieldLabel(word);
   const row = (block, name, ...fields) => {
     const input = block.appendDummyInput(name);
@@ -60,12 +77,24 @@ export function define_blocks(Blockly, words) {
     for (const field of fields) add_field(input, field);
     return input;
   };
+  /**
+   * Adds labels, and in each hole the result of `fill(name, labels)` with the labels before it, in the word order
+   * of the page's language.
+   */
+  function sentence(block, text, fill) {
+    let labels = [];
+    t(text).split(/\{(\w+)\}/).forEach((piece, i) => {
+      if (i % 2) labels = fill(piece, labels);
+      else if (piece.trim()) labels.push(as_is(piece.trim()));
+    });
+    if (labels.length) row(block, "ROW", ...labels);
+  }
   const body = (block, name) => block.appendStatementInput(name);
-  /** A comment behind the statement, where the text has one. */
+  /** The comment after the statement, if there is one. */
   const note = (block, has, key = "") => {
     if (has) row(block, `NOTES${key}`, [`NOTE${key}`, new LongField("' ")]);
   };
-  /** What can be had more or less often has buttons for that. */
+  /** Repeatable parts have buttons. */
   const sign_image = sign => `data:image/svg+xml,${encodeURIComponent(`<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 18 18"><circle cx="9" cy="9" r="8" fill="#fff" fill-opacity=".25"/><path d="${sign === "+" ? "M4 9h10M9 4v10" : "M4 9h10"}" stroke="#fff" stroke-width="2"/></svg>`)}`;
   const step_button = (block, sign, words, change) => new FieldImage(sign_image(sign), 20, 20, words, () => reshape(block, change));
   const steps = (block, { more, less, what }) => {
@@ -141,17 +170,22 @@ export function define_blocks(Blockly, words) {
     const style = drawers[word] ?? "start", tip = summary;
     const type = `robot ${word}`;
     if (form === "arguments") kinds[type] = { style, tip, statement: true,
-      build(block, { n = required }) {
-        row(block, "ROW", as_is(word));
-        parameters.slice(0, n).forEach((parameter, i) => {
-          value(block, `A${i}`, anything, ...parameters.length > 1 || !["milliseconds", "brightness"].includes(parameter.name) ? [parameter.name] : []);
-          block.ranges[`A${i}`] = parameter;
-        });
+      build(block, { n = required, roll }) {
+        const text = sentences[word] ?? word, names = parameters.map(({ name }) => name.replaceAll(" ", "_"));
+        const put = (i, labels) => {
+          value(block, `A${i}`, anything, ...labels);
+          block.ranges[`A${i}`] = parameters[i];
+          return [];
+        };
+        sentence(block, roll ? any_roll : text, (name, labels) => name === "go" ? [...labels, ["GO", new ChoiceField("1", () => ["1", "0", "2"], { look: go => t(rolls[go] ?? go) })]]
+          : put(names.indexOf(name), labels));
+        // Values that the sentence has no hole for.
+        for (const i of numbers(roll ? 0 : n)) if (!block.getInput(`A${i}`)) put(i, [names[i] ?? ","]);
       },
-      print: (block, part, { n = required }) => [word, numbers(n).map(i => part(`A${i}`)).join(", ")].filter(Boolean).join(" ") };
+      print: (block, part, { n = required, roll }) => [word, [...numbers(roll ? 2 : n).map(i => part(`A${i}`)), ...roll ? [text_of(block, "GO")] : []].join(", ")].filter(Boolean).join(" ") };
     else if (form === "entry") kinds[type] = { style, tip, statement: true,
       build(block, { n = 1 }) {
-        value(block, "A0", ["Place"], as_is(word));
+        value(block, "A0", ["Place"], sentences[word]);
         if (n < 3) return;
         value(block, "A1", anything, "wait");
         block.ranges.A1 = parameters[0];
@@ -161,7 +195,7 @@ export function define_blocks(Blockly, words) {
       print: (block, part, { n = 1 }) => `${word} ${numbers(n).map(i => part(`A${i}`)).join(", ")}` };
     else kinds[type] = { style, tip, statement: true,
       build(block, { n = 1 }) {
-        row(block, "ROW", as_is(word));
+        row(block, "ROW", sentences[word] ?? as_is(word));
         for (const i of numbers(n)) value(block, `A${i}`, form === "places" ? ["Place"] : anything, ...i > 0 ? [","] : []);
         steps(block, { what: "values", more: memory => { memory.n = n + 1; }, less: n > 1 && (memory => { memory.n = n - 1; }) });
       },
@@ -174,7 +208,7 @@ export function define_blocks(Blockly, words) {
   };
   kinds.colour = { style: "light", statement: true, tip: word_row.RGB.summary,
     build(block, { mixed }) {
-      row(block, "ROW", "RGB", ["TEXT", mixed ? new CheckedField("#00FF80", text => /^#[0-9a-f]{6}$/i.test(text)) : new ChoiceField("red", () => words.colours.map(({ name }) => name))]);
+      row(block, "ROW", "light up in", ["TEXT", mixed ? new CheckedField("#00FF80", text => /^#[0-9a-f]{6}$/i.test(text)) : new ChoiceField("red", () => words.colours.map(({ name }) => name))]);
     },
     print: block => `RGB ${text_of(block, "TEXT")}` };
 
@@ -199,7 +233,7 @@ export function define_blocks(Blockly, words) {
     makes: block => [["array", text_of(block, "NAME")]],
     print: (block, part) => `array ${text_of(block, "NAME")}[${part("VALUE")}]` };
   const names_of = block => text_of(block, "NAMES").split(",").map(one => one.trim()).filter(Boolean);
-  // Names, each with the value that it begins with or none: `a, b = 5`.
+  // Names, each with or without an initial value: `a, b = 5`.
   const begun_names = block => [...text_of(block, "NAMES").matchAll(/(?:^|,)\s*(\w+)\s*(?=[,=]|$)/g)].map(([, name]) => name);
   const declares = text => text.trim() !== "" && (text.includes("=") ? !/['\n\r]/.test(text) : list_of_names(text));
   kinds.local = { style: "names", statement: true, tip: word_row.local.summary,
@@ -216,7 +250,7 @@ export function define_blocks(Blockly, words) {
       const n = seps.length - 1;
       row(block, "ROW", "print");
       seps.forEach((sep, i) => {
-        // Between two items stands what may stand there; before the first and after the last only where it does.
+        // Between two items any separator may stand; before the first and after the last only an existing one is shown.
         const field = sep || (i > 0 && i < n) ? [[`SEP${i}`, new ChoiceField(sep, () => ["", ",", ";"], { look: sign => sign || "·" })]] : [];
         if (i < n) value(block, `A${i}`, item, ...field);
         else row(block, "LAST", ...field);
@@ -228,7 +262,7 @@ export function define_blocks(Blockly, words) {
       return numbers(n).reduce((text, i) => `${text}${sign_before(block, i)} ${part(`A${i}`)}`, "print") + (block.getFieldValue(`SEP${n}`) ?? "");
     } };
   const signs = (block, n) => numbers(n + 1).map(i => block.getFieldValue(`SEP${i}`) ?? "");
-  /** Without a sign two values that stand side by side could be read as one. */
+  /** Two adjacent values without a separator could be read as one. */
   const sign_before = (block, i) => {
     const sign = block.getFieldValue(`SEP${i}`) ?? "";
     if (sign || i === 0) return sign;
@@ -304,9 +338,9 @@ export function define_blocks(Blockly, words) {
   kinds["repeat times"] = loop("repeat", "end repeat", block => { value(block, "TIMES", anything, "repeat"); row(block, "END", "times"); }, (block, part) => `repeat ${part("TIMES")}`);
   kinds.for = { style: "repeat", statement: true, opens: 1, tip: word_row.for.summary,
     build(block, { step, note: has, end }) {
-      value(block, "FROM", anything, "for", ["NAME", new NameField("n", ["variable", "parameter"])], "=");
+      value(block, "FROM", anything, "count with", ["NAME", new NameField("n", ["variable", "parameter"])], "from");
       value(block, "TO", anything, "to");
-      if (step) value(block, "STEP", anything, "step");
+      if (step) value(block, "STEP", anything, "in steps of");
       note(block, has);
       body(block, "DO");
       note(block, end?.note, "E");
@@ -314,8 +348,8 @@ export function define_blocks(Blockly, words) {
     makes: block => [["variable", text_of(block, "NAME")]],
     print: (block, part, { step }) => `for ${text_of(block, "NAME")} = ${part("FROM")} to ${part("TO")}${step ? ` step ${part("STEP")}` : ""}`,
     end: (block, part, { bare }) => bare ? "next" : `next ${text_of(block, "NAME")}` };
-  kinds.exit = { style: "repeat", statement: true, tip: word_row.exit.summary, build: block => row(block, "ROW", "exit"), print: () => "exit" };
-  kinds.continue = { style: "repeat", statement: true, tip: word_row.continue.summary, build: block => row(block, "ROW", "continue"), print: () => "continue" };
+  kinds.exit = { style: "repeat", statement: true, tip: word_row.exit.summary, build: block => row(block, "ROW", "leave the loop"), print: () => "exit" };
+  kinds.continue = { style: "repeat", statement: true, tip: word_row.continue.summary, build: block => row(block, "ROW", "go on with the next round"), print: () => "continue" };
 
   // ---- subs ----
   for (const word of ["sub", "function"]) kinds[word] = { style: "subs", tip: word_row[word].summary, opens: 1, routine: true,
@@ -344,7 +378,7 @@ export function define_blocks(Blockly, words) {
   kinds.goto = { style: "grey", statement: true, tip: word_row.goto.summary, build: block => row(block, "ROW", "goto", ["NAME", new NameField("again", ["label"])]),
     print: block => `goto ${text_of(block, "NAME")}` };
 
-  // ---- what is no statement ----
+  // ---- other blocks ----
   kinds.program = { style: "start", hat: true, tip: "The blocks below run from top to bottom when the program starts.",
     build: block => row(block, "ROW", "when the program starts"), print: () => "" };
   kinds.comment = { style: "note", statement: true, tip: "a comment for people; the robot does not see it",
@@ -362,7 +396,7 @@ export function define_blocks(Blockly, words) {
     for (const { name } of [...block.inputList]) block.removeInput(name);
     block.build();
   }
-  /** Another number of parts: what hangs in those that stay, stays there. */
+  /** Changes the number of parts; blocks in the remaining parts stay. */
   function reshape(block, change) {
     const before = block.saveExtraState() ?? {}, memory = structuredClone(before);
     change(memory);
@@ -393,7 +427,7 @@ export function define_blocks(Blockly, words) {
     return { type: "number", fields: { TEXT: String(Math.max(block.ranges[input]?.least ?? 0, 0)) } };
   }
 
-  // ---- what all of them do ----
+  // ---- shared by all ----
   const build = block => {
     block.ranges = {};
     block.kind.build(block, block.memory);
@@ -424,7 +458,7 @@ export function define_blocks(Blockly, words) {
       build() {
         build(this);
       },
-      /** Each value has one, so that what is written is a program. */
+      /** Fills each empty input, so that the result is a program. */
       fill_empty() {
         for (const { name, connection, type } of this.inputList)
           if (type === inputTypes.VALUE && !connection.targetBlock() && !connection.getShadowState()) connection.setShadowState(shadow_for(this, name));
@@ -440,7 +474,7 @@ export function define_blocks(Blockly, words) {
 /** `(a) (b)` are two values, `a (b)` is a call, `a -b` a difference. */
 const merge = (before, after) => /^[-[]/.test(after) || (after.startsWith("(") && !before.endsWith(")"));
 
-/** Where the inputs of part `i` go: a last `else` stays the last. */
+/** Where the inputs of part `i` move: a last `else` stays last. */
 function moves_of(before, after) {
   const last = before.length - 1;
   if (before.at(-1)?.kind !== "else" || after.length <= before.length) return name => name;
@@ -448,15 +482,15 @@ function moves_of(before, after) {
 }
 const describe = row => !row ? "" : `${row.summary} (${row.least} to ${row.greatest}${row.unit ? ` ${row.unit}` : ""})`;
 
-// ---- what a block writes ----
+// ---- text of a block ----
 
-/** A value as it stands where parts must hold together by `least`. */
+/** A value, with parentheses if it binds weaker than `least`. */
 export function print_value(block, least = levels.any) {
   const groups = (hold_of(block).own < least ? 1 : 0) + (block.memory.groups ?? 0);
   return "(".repeat(groups) + block.kind.print(block, part_of(block), block.memory) + ")".repeat(groups);
 }
 const hold_of = block => hold(block.type, block.getFieldValue("TEXT") ?? "");
-/** What prints the values in a block's inputs. */
+/** Prints the values in a block's inputs. */
 export const part_of = block => input => {
   const found = block.getInputTargetBlock(input);
   if (!found) return block.type === "print" ? '""' : "0";

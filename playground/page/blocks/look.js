@@ -1,4 +1,4 @@
-// The colours of blocks: white words on each of them can be read.
+// The colours of blocks, dark enough for white text.
 
 export const colours = { start: "#46506b", drive: "#4b45c9", turn: "#7a3fb5", light: "#a84c08", wait: "#856000", sensors: "#0b6a72", decide: "#1d6b3a",
   repeat: "#a3325f", numbers: "#47661c", names: "#a13a20", subs: "#872f8c", print: "#2d5c99", note: "#66604a", grey: "#656b75" };

@@ -1,15 +1,15 @@
-// The rows of the engine's `tree` as blocks.
+// Converts the rows of the engine's `tree` to blocks.
 
-import { hold, levels, sign_of, type_of, without_sign } from "./kinds.js";
+import { hold, is_roll, levels, sign_of, type_of, without_sign } from "./kinds.js";
 import { remember } from "./write.js";
 
-/** As many are still quick to draw. */
+/** More would be slow to draw. */
 export const most_rows = 1000;
 
 const number_state = text => ({ type: "number", fields: { TEXT: text } });
 const zero = { shadow: number_state("0") };
 
-/** The state of a value that stands where parts must hold together by `least`. */
+/** The state of a value in a place where parts must bind at least as `least`. */
 function value_state(node, least = levels.any) {
   const { kind, text, operands = [], groups = 0 } = node;
   if (kind === "negate" && operands[0].kind === "number" && !operands[0].groups)
@@ -17,10 +17,10 @@ function value_state(node, least = levels.any) {
   const { own, parts } = hold(kind, text);
   const state = { type: kind, fields: kind === "negate" || kind === "not" ? {} : { TEXT: text }, inputs: {} };
   operands.forEach((operand, i) => { state.inputs[`A${i}`] = input_state(operand, parts[i]); });
-  // Parentheses that must stand there are written anyway.
+  // Required parentheses are written anyway.
   return { ...state, ...extra({ groups: groups - (own < least ? 1 : 0) || undefined, n: kind === "call" || kind === "builtin" ? operands.length : undefined }) };
 }
-/** A number lies in its place; what else stands there can be taken out of it, and leaves one. */
+/** A number is a shadow block; another value lies on top of one. */
 function input_state(node, least) {
   const state = value_state(node, least);
   return state.type === "number" && !state.extraState ? { shadow: state } : { block: state, ...zero };
@@ -30,7 +30,7 @@ function extra(memory) {
   return Object.keys(own).length ? { extraState: own } : {};
 }
 
-/** The state of the block of a statement, without what stands inside of it. */
+/** The state of a statement's block, without the blocks inside it. */
 function statement_state(row) {
   const { kind, items = [], name } = row;
   const state = { type: type_of(row), fields: {}, inputs: {} }, memory = {};
@@ -43,7 +43,9 @@ function statement_state(row) {
         break;
       }
       memory.n = items.length;
-      items.forEach((item, i) => {
+      memory.roll = is_roll(row) || undefined;
+      if (memory.roll) state.fields.GO = items[2].value.text;
+      items.slice(0, memory.roll ? 2 : items.length).forEach((item, i) => {
         if (item.kind === "place") state.inputs[`A${i}`] = { block: value_state(item.value), shadow: { type: "name", fields: { TEXT: "n" } } };
         else put(`A${i}`, item.kind === "restart" ? { value: { kind: "name", text: item.text } } : item);
       });
@@ -133,7 +135,7 @@ function statement_state(row) {
   return { ...state, memory };
 }
 
-/** A part of a block that is made already, or its end. */
+/** Adds a part to an existing block, or ends it. */
 function add_part(state, row, i) {
   const { kind, items = [], comment, after_blank } = row;
   if (row.block === "end") {
@@ -166,10 +168,10 @@ function add_part(state, row, i) {
   (state.memory.parts ??= []).push(part);
 }
 
-/** The rows as trees of states: those of the main program, and the subs and functions. */
+/** The rows as trees of states: the main program, and the subs and functions. */
 function states_of(rows) {
   const main = [], routines = [], open = [{ list: main }];
-  const made = []; // of each state: the rows of its head, its parts and its end
+  const made = []; // for each state: the rows of its head, its parts and its end
   rows.forEach((row, at) => {
     const around = open.at(-1);
     if (row.block === "part" || row.block === "end") {
@@ -211,7 +213,7 @@ function states_of(rows) {
   });
   return { main, routines, made };
 }
-/** The comments right above a sub are its own. */
+/** Comments right above a sub belong to it. */
 function take_docs(state, row, main) {
   const docs = [];
   let after_blank = state.memory.after_blank;
@@ -225,7 +227,7 @@ function take_docs(state, row, main) {
   state.memory.after_blank = after_blank;
 }
 
-/** A state as Blockly takes it, with all that stands inside. */
+/** Converts a state with everything inside to Blockly's form. */
 function finished(state) {
   const { memory, bodies, ...own } = state;
   if (own.type === "select" && bodies[0].length) memory.before = true;
@@ -237,7 +239,7 @@ function finished(state) {
 }
 const chain = list => list.reduceRight((next, state) => ({ ...finished(state), ...next ? { next: { block: next } } : {} }), null);
 
-/** Puts a program into an empty workspace. Returns of each line of the text the block that shows it. */
+/** Loads a program into an empty workspace. Returns the block for each line of the text. */
 export function load_rows(Blockly, workspace, rows) {
   const { main, routines, made } = states_of(rows);
   const append = state => Blockly.serialization.blocks.append(state, workspace);

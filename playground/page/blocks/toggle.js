@@ -1,4 +1,4 @@
-// Blocks or text: the switch beside the files, and what stands in the editor's place while blocks are shown.
+// Blocks or text: the switch next to the files, and the pane that replaces the editor while blocks are shown.
 
 import { element, button, not_here } from "../dom.js";
 
@@ -6,11 +6,11 @@ const store = "orb-playground-blocks";
 const remembered = () => { try { return localStorage.getItem(store) === "blocks"; } catch { return false; } };
 const remember = blocks => { try { localStorage.setItem(store, blocks ? "blocks" : "text"); } catch { /* not allowed: for this visit only */ } };
 
-/** `editor`: of the page; `active()`: the name and the text that are open; `add_file(name, text)`. */
+/** `editor`: that of the page; `active()`: the open file's name and text; `add_file(name, text)`. */
 export function set_up_blocks({ nonce, language, editor, active, add_file, editor_pane, before }) {
   let wanted = remembered(), view = null, loading = null;
-  let shown = ""; // the name of the file whose blocks are shown
-  let own_text = null; // what the blocks have written last
+  let shown = ""; // name of the file shown as blocks
+  let own_text = null; // last text written by the blocks
   let asked = 0, last_findings = [];
 
   const choice = (words, blocks) => button(words, () => choose(blocks), { id: blocks ? "as-blocks" : "as-text", "aria-pressed": "false" });
@@ -33,7 +33,7 @@ export function set_up_blocks({ nonce, language, editor, active, add_file, edito
     editor_pane.hidden = blocks;
     return blocks;
   }
-  /** Says in the place of the blocks why there are none. */
+  /** Shows why there are no blocks. */
   function explain(...parts) {
     shown = "";
     words.replaceChildren(...parts);
@@ -41,8 +41,8 @@ export function set_up_blocks({ nonce, language, editor, active, add_file, edito
     canvas.hidden = zooms.hidden = true;
   }
   const style = element("link", { rel: "stylesheet", href: new URL("./blocks.css", import.meta.url).href });
-  let generation = 0; // of views: a language has its own
-  let loose = []; // blocks of the last one that hang nowhere
+  let generation = 0; // of views: each language needs its own
+  let loose = []; // unconnected blocks of the last view
   async function load() {
     const own = ++generation;
     document.head.append(style);
@@ -74,10 +74,10 @@ export function set_up_blocks({ nonce, language, editor, active, add_file, edito
       if (!view) {
         explain(element("p", {}, "Loading the blocks…"));
         await (loading ??= load());
-        if (!view) return; // the page is in another language meanwhile
+        if (!view) return; // the page's language changed meanwhile
       }
       const { rows } = await language.call("tree", { files: { [name]: text } });
-      if (question !== asked) return; // it has changed meanwhile
+      if (question !== asked) return; // the text changed meanwhile
       if (rows.length > view.most_rows) return explain(element("p", {}, `This program has ${rows.length} lines, which is too many for blocks. It is under Text.`));
       words.hidden = true;
       canvas.hidden = zooms.hidden = false;
@@ -109,7 +109,7 @@ export function set_up_blocks({ nonce, language, editor, active, add_file, edito
     show({ fresh: true });
     if (!blocks) editor.shown_again(line);
   }
-  // The keys of the text's history work on the text.
+  // The undo keys act on the text's history.
   pane.addEventListener("keydown", event => {
     if (!(event.ctrlKey || event.metaKey) || event.altKey || event.target.closest("input, textarea")) return;
     const key = event.key.toLowerCase();
@@ -122,9 +122,9 @@ export function set_up_blocks({ nonce, language, editor, active, add_file, edito
   show_switch();
 
   return {
-    /** Another file is open. */
+    /** Another file was opened. */
     open() { own_text = null; show({ fresh: true }); },
-    /** The page is in another language: the words of a block are those that it was made with. */
+    /** The page's language changed: existing blocks keep their words, so make them again. */
     say_anew() {
       loose = view?.dispose() ?? loose;
       ++generation;
@@ -137,7 +137,7 @@ export function set_up_blocks({ nonce, language, editor, active, add_file, edito
       if (list && shown && !pane.hidden) view.findings(list);
     },
     run_line(line) { if (shown && !pane.hidden) view.run_line(line); },
-    /** Whether it has gone there itself. */
+    /** Returns true if it has moved there itself. */
     go_to(line) {
       if (!shown || pane.hidden) return false;
       view.go_to(line);

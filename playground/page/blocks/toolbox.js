@@ -1,4 +1,4 @@
-// What can be taken: the drawers beside the blocks, from the tables.
+// The toolbox: drawers of blocks, generated from the tables.
 
 import { t } from "../dom.js";
 
@@ -10,10 +10,13 @@ const inside = ({ kind, ...state }) => ({ block: state });
 const label = text => ({ kind: "label", text: t(text) });
 const sensor = word => block("sensor", { fields: { TEXT: word } });
 const robot = (word, ...texts) => block(`robot ${word}`, { inputs: Object.fromEntries(texts.map((text, i) => [`A${i}`, number(text)])), memory: texts.length ? { n: texts.length } : undefined });
+const roll = (heading, speed, go) => block("robot goroll", { fields: { GO: go }, inputs: { A0: number(heading), A1: number(speed) }, memory: { n: 3, roll: true } });
 const shaken = value("sensor", { fields: { TEXT: "dshake" } });
 
-/** `made(of)`: the names of the program of these kinds; `routines()`: its subs and functions, each with its parameters;
- *  `labels`: whether drawers say what things are for. */
+/**
+ * `made(of)`: the program's names of these kinds; `routines()`: its subs and functions with parameters; `labels`:
+ * show explanations in drawers.
+ */
 export function drawers(words, { made, routines, labels }) {
   const relation = (left, sign, right) => block("relation", { fields: { TEXT: sign }, inputs: { A0: left, A1: number(right) } });
   const asked = (left, sign, right) => { const { kind, ...state } = relation(left, sign, right); return { block: state, ...number("0") }; };
@@ -27,9 +30,9 @@ export function drawers(words, { made, routines, labels }) {
       label("The ball uses loops to wait for things:"),
       block("loop", { inputs: { DO: inside(block("if", { memory: { one_line: false }, inputs: { COND: shaken, DO: inside(colour("red")) }, next: state_of(robot("delay", "50ms")) })) } }),
       robot("end"), robot("reset")]],
-    ["Drive", "drive", [label("heading 0 is ahead, 90 to the right"), robot("goroll", "0", "80", "1"), label("brake"), robot("goroll", "0", "0", "0"),
+    ["Drive", "drive", [label("heading 0 is ahead, 90 to the right"), roll("0", "80", "1"), label("brake"), roll("0", "0", "0"),
       label("both motors"), robot("raw", "1", "128", "1", "128"), robot("basflg", "1")]],
-    ["Turn", "turn", [label("turn on the spot"), robot("goroll", "90", "0", "1"), label("this is ahead from now on"), robot("heading", "0"), label("set the position"), robot("locate", "0", "0"), sensor("yaw")]],
+    ["Turn", "turn", [label("turn on the spot"), roll("90", "0", "1"), label("this is ahead from now on"), robot("heading", "0"), label("set the position"), robot("locate", "0", "0"), sensor("yaw")]],
     ["Light", "light", [colour("red"), block("colour", { fields: { TEXT: "#00FF80" }, memory: { mixed: true } }), robot("RGB", "255", "128", "0"), robot("LEDC", "3"), robot("backLED", "255")]],
     ["Wait", "wait", [robot("delay", "1s"), label("until it is shaken"), block("repeat", { inputs: { DO: inside(robot("delay", "50ms")), COND: shaken } }),
       block("while", { inputs: { COND: asked(value("sensor", { fields: { TEXT: "speed" } }), ">", "5"), DO: inside(robot("delay", "50ms")) } }), robot("sleep", "60s")]],
@@ -77,7 +80,7 @@ export function drawers(words, { made, routines, labels }) {
       block("print", { memory: { seps: ["", ",", ""] }, inputs: { A0: string("speed is"), A1: { ...value("sensor", { fields: { TEXT: "speed" } }), ...string("") } } }),
       block("string", { fields: { TEXT: "hello" } }), block("character", { inputs: { A0: number("65") } }), robot("tron"), robot("troff")]],
   ];
-  // Where there is little room, blocks speak for themselves.
+  // Omit labels if space is short.
   const shown = contents => labels ? contents : contents.filter(({ kind }) => kind !== "label");
   return list.map(([name, style, contents]) => [name, style, typeof contents === "function" ? () => shown(contents()) : shown(contents)]);
 }
@@ -89,7 +92,7 @@ function fresh(name, taken) {
   }
 }
 
-/** The drawers as Blockly takes them; those that depend on the program are asked for when they open. */
+/** The drawers in Blockly's form; those that depend on the program are computed on opening. */
 export function toolbox_of(list) {
   return { kind: "categoryToolbox", contents: list.map(([name, style, contents]) => ({ kind: "category", name: t(name), categorystyle: `${style}_category`,
     ...typeof contents === "function" ? { custom: name } : { contents } })) };

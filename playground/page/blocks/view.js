@@ -1,5 +1,5 @@
-// The blocks of a program on the page: Blockly, loaded when somebody asks for blocks. They are a view of the text: what
-// is changed here is written there at once, and what is changed there is shown here.
+// A program as blocks: Blockly, loaded on demand. The blocks are a view of the text: changes on either side are applied
+// to the other at once.
 
 import * as Blockly from "blockly/core";
 import { define_blocks } from "./kinds.js";
@@ -13,10 +13,10 @@ import { not_here } from "../dom.js";
 export { most_rows } from "./rows.js";
 
 const messages = { de: () => import("blockly/msg/de"), es: () => import("blockly/msg/es"), fr: () => import("blockly/msg/fr") };
-// The page's own history is that of the text.
+// The page's undo history belongs to the text.
 for (const name of ["undo", "redo"]) Blockly.ShortcutRegistry.registry.unregister(name);
 
-/** Style sheets that are made meanwhile carry the nonce of the page's policy. */
+/** Adds the nonce of the page's policy to style sheets created meanwhile. */
 function with_nonce(nonce, deed) {
   const create = document.createElement;
   document.createElement = function (name, ...more) {
@@ -33,14 +33,16 @@ function with_nonce(nonce, deed) {
 
 const gap = 40;
 
-/** Blocks in the language of the page. `loose`: saved ones, which hang nowhere; `on_text(text, typed)`: the blocks say something else now; `typed`: somebody is still
- *  typing. */
+/**
+ * Makes blocks in the language of the page. `loose`: saved unconnected blocks; `on_text(text, typed)`: the blocks'
+ * text has changed; `typed`: somebody is still typing.
+ */
 export async function make_blocks({ parent, nonce, words, narrow, loose, on_text }) {
   Blockly.setLocale(await (messages[document.documentElement.lang] ?? (() => import("blockly/msg/en")))().catch(not_here));
   define_blocks(Blockly, words);
-  let places = new Map(); // of lines of the text: the blocks that stand for them
+  let places = new Map(); // the blocks for each line of the text
   let loading = false, written = null, planned = false;
-  const moved = new Set(); // subs that somebody has put somewhere else
+  const moved = new Set(); // subs that somebody has moved
   const routines = () => workspace.getTopBlocks(true).filter(({ kind }) => kind.routine).map(block => ({ type: block.type, name: block.getFieldValue("NAME"),
     parameters: block.makes().filter(([kind]) => kind === "parameter") }));
   const list = drawers(words, { made: of => names_in(workspace, of), routines: () => routines(), labels: !narrow });
@@ -55,7 +57,7 @@ export async function make_blocks({ parent, nonce, words, narrow, loose, on_text
 
   const loose_blocks = () => workspace.getTopBlocks(false).filter(block => !is_part(block)).map(block => Blockly.serialization.blocks.save(block, { addCoordinates: true }));
   const is_part = block => block.type === "program" || block.kind.routine;
-  /** Blocks that hang nowhere are no part of the program, and look like it. */
+  /** Marks unconnected blocks, which are not part of the program. */
   function mark_loose() {
     for (const top of workspace.getTopBlocks(false)) {
       const loose = !is_part(top);
@@ -91,7 +93,7 @@ export async function make_blocks({ parent, nonce, words, narrow, loose, on_text
     queueMicrotask(() => say_text(event.type === Blockly.Events.BLOCK_FIELD_INTERMEDIATE_CHANGE));
   });
 
-  /** The main program first, the subs beside it, or below where there is no room. */
+  /** Places the main program first, the subs next to it, or below if space is short. */
   function lay_out(kept) {
     const scale = workspace.scale, wide = workspace.getMetrics().viewWidth / scale > 900;
     const program = workspace.getBlockById("program");
@@ -117,7 +119,7 @@ export async function make_blocks({ parent, nonce, words, narrow, loose, on_text
   }
   const key_of = block => block.kind.routine ? block.getFieldValue("NAME").toLowerCase() : block.id;
 
-  /** The line of the block that is chosen; 0 for none. */
+  /** The line of the selected block; 0 for none. */
   function chosen_line() {
     let block = Blockly.getSelected();
     while (block && ![...places.values()].includes(block.id)) block = block.getParent?.();
@@ -131,9 +133,9 @@ export async function make_blocks({ parent, nonce, words, narrow, loose, on_text
   const dark = matchMedia("(prefers-color-scheme: dark)");
   dark.addEventListener("change", look);
 
-  const shown = new Map(); // the findings that blocks show
+  const shown = new Map(); // findings shown by blocks
   return {
-    /** Shows the rows of a text. What hangs nowhere stays, and who moved a sub finds it there. */
+    /** Shows the rows of a text. Unconnected blocks stay, and moved subs keep their places. */
     show(text, rows, { fresh }) {
       const view = fresh ? null : { x: workspace.scrollX, y: workspace.scrollY };
       const focused = parent.contains(document.activeElement), line = chosen_line();
@@ -154,12 +156,12 @@ export async function make_blocks({ parent, nonce, words, narrow, loose, on_text
         Blockly.renderManagement.triggerQueuedRenders(workspace);
         without_events(() => lay_out(kept));
         written = write(workspace).text;
-        if (written !== text) written = null; // the first change lays the text out
+        if (written !== text) written = null; // the first change reformats the text
         if (view) workspace.scroll(view.x, view.y);
         else workspace.scroll(narrow ? 4 : 10, 10);
       } finally {
         loading = false;
-        // The block that had the keys is gone, and the next key, such as Ctrl+Y, is meant for the blocks, too.
+        // The focused block is gone, but the next key, such as Ctrl+Y, is still meant for the blocks.
         if (focused) Blockly.getFocusManager().focusNode(workspace.getBlockById(places.get(line) ?? "") ?? workspace);
       }
     },
@@ -195,7 +197,7 @@ export async function make_blocks({ parent, nonce, words, narrow, loose, on_text
       Blockly.getFocusManager().focusNode(block);
     },
     chosen_line,
-    /** Gives the blocks that hang nowhere, for the next one. */
+    /** Returns the unconnected blocks for the next view. */
     dispose() {
       const left = loose_blocks();
       observer.disconnect();

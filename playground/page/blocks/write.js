@@ -1,10 +1,10 @@
-// Blocks as text: what `orb fmt` would make of it.
+// Blocks as text, in the layout of `orb fmt`.
 
 import { part_of, sign_of, without_sign } from "./kinds.js";
 
 const indent = level => "  ".repeat(Math.max(level, 0));
 const field = (block, name) => block.getFieldValue(name) ?? "";
-/** A comment that somebody has edited is one still, in one line. */
+/** Keeps an edited comment a single-line comment. */
 const as_comment = text => {
   const line = text.replaceAll(/[\n\r]/g, " ").trim();
   return !line || sign_of(line).trim() ? line : `' ${line}`;
@@ -15,7 +15,7 @@ const text_of_part = (block, part, i) => block.kind.part(block, part_of(block), 
 const end_of = block => block.kind.end(block, part_of(block), block.memory);
 const first_in = (block, input) => block.getInputTargetBlock(input);
 
-/** What `if … then S else S` may have as an S. */
+/** True if the block fits as S in `if … then S else S`. */
 const fits_branch = block => block && !block.getNextBlock() && !block.kind.opens && !block.memory.after_blank && !block.memory.note &&
   !["comment", "text", "label", "const", "local", "array", "use", "include"].includes(block.type);
 function is_one_line(block) {
@@ -26,13 +26,13 @@ function is_one_line(block) {
 const one_line = block => `${head_of(block)} ${head_of(first_in(block, "DO"))}${block.memory.parts?.length ? ` else ${head_of(first_in(block, "DO0"))}` : ""}`;
 const line_of = block => is_one_line(block) ? one_line(block) : head_of(block);
 
-/** How a line was laid out where that is not how it is written anew; for as long as it says the same. */
+/** The original layout of a line, if it differs from the canonical one and the content is the same. */
 function layout_of(canonical, { text, lines, indent: more = 0 }) {
   if (!lines && text === canonical) return undefined;
   return { for: canonical, lines: lines ?? [text], more };
 }
 
-/** Keeps in a block how the rows that it was made of were laid out. */
+/** Stores in a block how its rows were laid out. */
 export function remember(block, head, parts, end) {
   if (head.kind === "text" || head.kind === "comment") return;
   const { memory } = block;
@@ -45,14 +45,13 @@ export function remember(block, head, parts, end) {
   if (end) keep(memory.end ??= {}, end_of(block), end);
 }
 
-/** Of a workspace: its program as text, and of each line the block that stands for it. `fresh`: without regard to how
- *  lines were laid out. */
+/** Returns a workspace's program as text, and the block for each line. `fresh`: ignores stored layouts. */
 export function write(workspace, { fresh = false } = {}) {
   const lines = [], ids = [];
-  let known = 0; // lines of which a layout was kept
+  let known = 0; // lines with a stored layout
   const put = (block, text) => { lines.push(text); ids.push(block.id); };
   const blank = ({ after_blank }) => { if (after_blank && lines.length) { lines.push(""); ids.push(""); } };
-  /** A line of code with the comment behind it. */
+  /** A line of code with its comment. */
   function line(block, level, canonical, { layout, after_blank } = {}, note) {
     blank({ after_blank });
     const comment = as_comment(note);

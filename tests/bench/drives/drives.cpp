@@ -1,14 +1,15 @@
-// The virtual ball beside recorded drives of a real one: how well its numbers (spec/ball.def,
-// source DRIVES) tell where that one went, and which numbers would tell it best.
+// Compares the virtual ball with recorded drives of a real one: prints the errors of its numbers
+// (spec/ball.def, source DRIVES), or fits numbers to the recordings.
 //
 //   drives FILE…                       errors of the numbers of spec/ball.def
-//   drives --fit FILE…                 numbers fitted to all, and to each with the errors on the
-//   others drives --speeds SVG --path SVG FILE    pictures of half a minute of the first
+//   drives --fit FILE…                 numbers fitted to all files, and to each, with the errors
+//                                      on the others
+//   drives --speeds SVG --path SVG FILE    pictures of half a minute of the first file
 //
 // A recording is a table: yaw (deg), locator x, y (cm), speed x, y (mm/s), acceleration x, y, time
 // since the row before (µs), ordered speed, ordered heading; an order holds from its row on. It is
 // driven again in pieces of 12 s; the first 2 s of each only bring the ball up to speed. Nothing
-// here is random, and the pictures are the same on every machine.
+// here is random: the pictures are the same on every machine.
 
 #include "vm/body/body.h"
 
@@ -60,7 +61,7 @@ Drive read_drive(const std::string& path) {
   return rows;
 }
 
-/// Where the virtual ball is at the instants of the rows that are asked for.
+/// The state of the virtual ball at the times of the requested rows.
 struct Sample {
   double at_s = 0;
   Point place;
@@ -98,8 +99,8 @@ double distance(Point a, Point b) {
 }
 
 struct Sums {
-  double wrong = 0; ///< squares of what the displacements differ by
-  double right = 0; ///< squares of the displacements
+  double wrong = 0; ///< squared differences of the displacements
+  double right = 0; ///< squared displacements
   double virtual_way = 0;
   double real_way = 0;
   double error() const { return std::sqrt(wrong / right); }
@@ -140,7 +141,7 @@ Sums compare(const Drive& drive, const spec::Driving& numbers) {
   return sums;
 }
 
-/// The numbers that are looked for, as a list.
+/// The numbers to fit, as a list.
 using Numbers = std::vector<double>;
 
 Numbers to_list(const spec::Driving& n) {
@@ -158,7 +159,7 @@ spec::Driving from_list(const Numbers& list, int dead_steps) {
   return n;
 }
 
-/// The simplex of Nelder and Mead: goes downhill from `at` without a derivative.
+/// Minimises by the simplex of Nelder and Mead, starting at `at`.
 Numbers lowest(Numbers at, const std::function<double(const Numbers&)>& height) {
   const std::size_t n = at.size();
   constexpr int rounds = 150;
@@ -198,7 +199,7 @@ Numbers lowest(Numbers at, const std::function<double(const Numbers&)>& height) 
   return std::min_element(corners.begin(), corners.end())->second;
 }
 
-/// The numbers with the least error whose speed is right, for each dead time the best.
+/// For each dead time, fits the numbers with the least error among those whose speed is right.
 spec::Driving fit(const std::vector<Drive>& drives) {
   spec::Driving best;
   double least = HUGE_VAL;
@@ -268,7 +269,7 @@ constexpr auto ordered_color = "#999";
 constexpr auto real_color = "#d95f02";
 constexpr auto virtual_color = "#1b6ca8";
 
-/// The piece that the pictures show: one in the midst of the drive.
+/// The pictures show a piece from the middle of the drive.
 std::span<const Row> shown_piece(const Drive& drive) {
   const auto from =
       std::find_if(drive.begin(), drive.end(), [](const Row& r) { return r.at_s > 60; });
@@ -296,7 +297,7 @@ void draw_speeds(const Drive& drive, const std::string& path) {
       ordered.push_back(place(row, spec::speed_cm_s({}, rows[row - 1].ordered_speed)));
     ordered.push_back(place(row, spec::speed_cm_s({}, rows[row].ordered_speed)));
     ours.push_back(place(row, samples[row].speed_cm_s));
-    if (row >= 2) // the recorded speed trembles: the mean of three rows
+    if (row >= 2) // the recorded speed is noisy: use the mean of three rows
       real.push_back(
           place(row - 1,
                 (rows[row - 2].speed_cm_s + rows[row - 1].speed_cm_s + rows[row].speed_cm_s) / 3));

@@ -1,5 +1,5 @@
-// Marks where a line of orbBasic begins in a kernel in C. With -DCOUNTED each line is counted and
-// may be the last, as in the ball.
+// Marks the beginning of a line of orbBasic in a kernel in C. With -DCOUNTED each line is counted
+// and may be the last, as in the ball.
 #include <stdint.h>
 #include <stdlib.h>
 

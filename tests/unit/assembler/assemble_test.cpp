@@ -94,7 +94,7 @@ TEST(Disassemble, EveryCommandComesBackByName) {
   }
 }
 
-// A whole macro: commands with any operand values, one End.
+// A complete macro: commands with random operands and one End.
 Bytes random_body() {
   Bytes body;
   const auto count = *rc::gen::inRange(0, 30);
@@ -175,7 +175,7 @@ RC_GTEST_PROP(Fold, FoldingKeepsTheTimesAndNeverGrows, ()) {
   const auto folded = assembled(text, Folding::Fold);
   RC_ASSERT(folded.macros[0].body.size() <= kept.macros[0].body.size());
   RC_ASSERT(time_macro(folded, 0).most_ms == time_macro(kept, 0).most_ms);
-  // Whatever is not a delay begins when it did before.
+  // Every command other than a delay begins at the same time as before.
   std::vector<std::pair<std::uint8_t, std::int64_t>> times[2];
   for (const auto* assembly : {&kept, &folded}) {
     const auto timing = time_macro(*assembly, 0);
@@ -214,7 +214,7 @@ TEST(Lint, FilesLeadToEachOtherAndTheMacrosOfOneShareTheHeap) {
   for (const auto& file : check(two))
     EXPECT_TRUE(file.diagnostics.empty()) << file.source->name();
   const Source* three[] = {&a, &b, &c};
-  for (const auto& file : check(three)) // each may go to a ball of its own
+  for (const auto& file : check(three)) // each may be for another ball
     EXPECT_TRUE(file.diagnostics.empty()) << file.source->name();
   std::string many;
   for (int id = 32; id < 49; ++id)

@@ -30,7 +30,7 @@ TEST(Layout, OfNothingIsNothing) {
   EXPECT_EQ(layout("\n \r\n\n"), "");
 }
 
-/// Pieces that make lines which often assemble, and some that never do.
+/// Pieces whose random lines often assemble, and some that never do.
 rc::Gen<std::string> source() {
   const auto piece = rc::gen::element<std::string>(
       "roll", "rgb", "delay", "loop_start", "loop_end", "comment", "goto", ".macro", ".const",

@@ -28,7 +28,7 @@ TEST(Catalogue, LeavesWordsInHolesAsTheyAre) {
 TEST(Catalogue, SaysInEnglishWhatItDoesNotHave) {
   EXPECT_EQ(german.say(texts::WriteLike("end")), "write it like `end`");
   EXPECT_EQ(german.say(texts::WriteBecause("end", texts::RemoveLine())),
-            "write `end`; remove the line"); // not half in German
+            "write `end`; remove the line"); // not partly in German
   EXPECT_EQ(german.say({}), "");
 }
 

@@ -1,5 +1,5 @@
-// What the SARIF 2.1.0 schema asks of a log, written out: the properties that must be there, their
-// types, the values that are allowed, and the indices that must point somewhere.
+// The requirements of the SARIF 2.1.0 schema, spelled out: required properties, their types,
+// allowed values, and valid indices.
 
 #include "base/render.h"
 #include "base/texts.h"
@@ -19,8 +19,8 @@ using Json = nlohmann::json;
 constexpr Rule bad_word{"bad-word", Severity::Error, "a word is bad", "It is.", "", "", 2};
 constexpr Rule odd_word{"odd-word", Severity::Info, "a word is odd", "", "", "", 0};
 
-/// Every property of `object` is one that the schema knows there; unknown ones are not allowed
-/// (additionalProperties is false throughout the schema).
+/// Expects that the schema knows every property of `object` (additionalProperties is false
+/// throughout the schema).
 void expect_only(const Json& object, const std::vector<std::string>& known) {
   ASSERT_TRUE(object.is_object());
   for (const auto& [key, value] : object.items())
@@ -100,7 +100,7 @@ void expect_result(const Json& result, const Json& rules) {
       expect_fix(fix);
 }
 
-/// The schema's demands on a whole log.
+/// The schema's requirements for a whole log.
 void expect_valid(const Json& log) {
   expect_only(log, {"$schema", "version", "runs", "inlineExternalProperties", "properties"});
   EXPECT_EQ(log["version"], "2.1.0");

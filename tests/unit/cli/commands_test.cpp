@@ -1,4 +1,4 @@
-// What holds for every command of the option model.
+// Rules for every command of the option model.
 
 #include "cli/commands/commands.h"
 #include "cli/model/command_line.h"
@@ -19,7 +19,7 @@ struct Model {
   reference::CommandLine data = as_data(orb);
 };
 
-/// The lines below `Examples:` in a help: what a user sees.
+/// Returns the lines below `Examples:` in a help text.
 std::vector<std::string> shown_examples(const std::string& text) {
   std::istringstream help(text);
   std::vector<std::string> examples;
@@ -47,7 +47,7 @@ TEST(Commands, EveryHelpShowsTwoExamplesThatCanBePasted) {
     EXPECT_GE(examples.size(), 2U) << name;
     for (const auto& example : examples) {
       EXPECT_NE(example.find("orb " + name), std::string::npos) << example;
-      // Every option in it exists; what stands after a pipe belongs to another program.
+      // Every option in an example must exist; text after a pipe belongs to another program.
       std::istringstream words(example.substr(0, example.find('|')));
       for (std::string word; words >> word && word != "--";)
         if (word.starts_with("--")) {

@@ -1,5 +1,4 @@
-// Addresses of the playground, as they come by mail: whole, cut, and made by somebody who means
-// harm.
+// Playground addresses as they arrive by mail: complete, truncated, and malicious.
 
 #include "cli/input/links.h"
 
@@ -12,7 +11,7 @@
 namespace orb::cli {
 namespace {
 
-/// An address that holds `text`, made as the page makes it.
+/// Returns an address that holds `text`, encoded as by the page.
 std::string address(std::string_view text) {
   z_stream stream{};
   deflateInit2(&stream, Z_BEST_COMPRESSION, Z_DEFLATED, -MAX_WBITS, MAX_MEM_LEVEL,
@@ -39,7 +38,7 @@ std::string address(std::string_view text) {
   return link;
 }
 
-/// Whether the only address of `text` cannot be read, and has no files then.
+/// True if the only address in `text` cannot be read and yields no files.
 bool is_refused(const std::string& text) {
   const auto found = read_links(text);
   return found && found->size() == 1 && !found->front().trouble.empty() &&

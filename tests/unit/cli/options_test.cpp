@@ -7,7 +7,7 @@
 namespace orb::cli {
 namespace {
 
-/// A small option model, so that the test does not depend on what the commands take today.
+/// A small option model, so that the test does not depend on the real commands.
 struct Parser {
   CommandLine line{"tool", "", ""};
   std::vector<reference::Candidate> ports{{"@red", "rfcomm://68:86:E7:00:11:22"}};

@@ -2,7 +2,7 @@
 #include "cli/model/command_line.h"
 #include "disk/disk.h"
 #include "tests/golden/files.h"
-#include "vm/native/native.h"
+#include "vm/machine/native/native.h"
 
 #include <cstdlib>
 #include <gtest/gtest.h>
@@ -14,8 +14,8 @@ namespace {
 
 constexpr std::string_view cannot_forbid = "this kernel cannot forbid it";
 
-/// `orb run -v` in a process whose written memory must not become executable, as Linux has it from
-/// 6.3 on; the process ends with the command.
+/// Runs `orb run -v` in a separate process in which written memory must not become executable, as
+/// Linux offers from 6.3 on.
 [[noreturn]] void run_where_forbidden(const std::filesystem::path& file) {
   constexpr int set_mdwe = 65;
   if (prctl(set_mdwe, 1, 0, 0, 0) != 0) {

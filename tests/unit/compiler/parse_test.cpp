@@ -1,7 +1,7 @@
-#include "compiler/text/parse.h"
+#include "compiler/text/parse_basic.h"
 
+#include "compiler/text/basic_words.h"
 #include "compiler/text/print.h"
-#include "compiler/text/words.h"
 
 #include <gtest/gtest.h>
 #include <optional>
@@ -14,7 +14,7 @@ namespace {
 using spec::BasicError;
 using spec::Statement;
 
-/// The statement of a program of one line.
+/// Returns the statement of a one-line program.
 struct One {
   std::string text;
   Program program;
@@ -34,7 +34,7 @@ Statement kind_of(const std::string& line) {
   return one.statement.kind;
 }
 
-/// An expression as a fully bracketed text, so that precedence can be seen.
+/// Prints an expression with all parentheses, to show precedence.
 std::string bracketed(const Program& program, std::uint32_t root) {
   const auto& node = program.nodes[root];
   switch (node.kind) {
@@ -71,7 +71,7 @@ TEST(Parse, AnyLineOfJoinedTextsMayBeginWithAByteOrderMark) {
 TEST(Parse, ByteOrderMarksAmongBlanksAreNoPartOfALine) {
   const auto program = parse(" \xEF\xBB\xBF \xEF\xBB\xBF\xEF\xBB\xBF 10 print 1\n \xEF\xBB\xBF");
   EXPECT_EQ(format(program), "10 print 1\n");
-  EXPECT_EQ(program.lines[0].span.size(), 11U); // with the blank before it
+  EXPECT_EQ(program.lines[0].span.size(), 11U); // including the blank before it
 }
 
 TEST(Parse, PrecedenceHasTwoLevelsAndTakesEqualsFromTheLeft) {
@@ -98,7 +98,7 @@ TEST(Parse, AMinusSignMayStandBeforeAnOperand) {
   EXPECT_EQ(expression("+3"), "error");
 }
 
-// words are read as a whole, with their case.
+// words are read whole, and case matters.
 TEST(Parse, KeywordsThatBeginAlikeAreToldApart) {
   EXPECT_EQ(kind_of("10 read A"), Statement::Read);
   EXPECT_EQ(kind_of("10 reset"), Statement::Reset);

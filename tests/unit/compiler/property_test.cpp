@@ -1,10 +1,10 @@
-// What holds for any program: tried on many that are made at random.
+// Properties of any program, tested on many random ones.
 
 #include "compiler/check.h"
 #include "compiler/load.h"
 #include "compiler/renumber.h"
 #include "compiler/text/image.h"
-#include "compiler/text/parse.h"
+#include "compiler/text/parse_basic.h"
 #include "compiler/text/print.h"
 #include "compiler/text/rules.h"
 #include "tests/random_program.h"
@@ -24,8 +24,7 @@ namespace {
 
 using testing::RandomProgram;
 
-/// Sensors that give other values each time, the same ones in every run; all that a program does is
-/// written down.
+/// Sensors with changing values, the same in every run; records everything a program does.
 class Notebook final : public vm::Host {
 public:
   std::int32_t read(spec::Variable variable, Instant) override {
@@ -46,7 +45,7 @@ public:
     for (const auto argument : arguments)
       notes += fmt::format(" {}", argument);
     if (statement == spec::Statement::Goroll && arguments.size() == 2)
-      notes += arguments[1] > 0 ? " 1" : " 0"; // what the third is then
+      notes += arguments[1] > 0 ? " 1" : " 0"; // the default of the third
     notes += '\n';
     return std::nullopt;
   }
@@ -66,7 +65,7 @@ private:
 struct Run {
   std::string notes;
   std::vector<int> lines;
-  std::optional<vm::Machine::Stop> stop;
+  std::optional<vm::Machine::Termination> stop;
 };
 
 Run run(std::string_view text) {
@@ -82,7 +81,7 @@ Run run(std::string_view text) {
   Run result;
   result.notes = std::move(host.notes);
   result.lines = std::move(host.lines);
-  result.stop = machine.take_stop();
+  result.stop = machine.take_termination();
   if (result.stop)
     result.notes += fmt::format("stop {} {}\n", result.stop->line,
                                 result.stop->error ? static_cast<int>(*result.stop->error) : 0);
@@ -153,7 +152,7 @@ TEST(Property, FormattingIsIdempotentAndKeepsTheProgram) {
   }
 }
 
-/// A test for each, so that they run side by side.
+/// One test for each quarter, so that they run in parallel.
 constexpr std::uint64_t quarters = 4;
 class AQuarterOfThePrograms : public ::testing::TestWithParam<std::uint64_t> {};
 
@@ -164,7 +163,7 @@ TEST_P(AQuarterOfThePrograms, IsFinalAfterFixing) {
     const auto twice = fix(once.text, {});
     ASSERT_EQ(twice.count, 0U) << once.text;
     const auto left = check(once.text, {}).diagnostics;
-    for (const auto& d : left) { // what is left would do harm elsewhere
+    for (const auto& d : left) { // the remaining fixes would break something else
       if (!d.fix || d.fix->safety != Safety::Safe)
         continue;
       const auto made = apply_fixes(once.text, {d}).text;
@@ -184,7 +183,7 @@ TEST_P(AQuarterOfThePrograms, IsFinalAfterFixing) {
 INSTANTIATE_TEST_SUITE_P(Property, AQuarterOfThePrograms,
                          ::testing::Range(std::uint64_t{0}, quarters));
 
-/// The line of a program that has this number; empty where none has.
+/// Returns the line with this number; empty if there is none.
 std::string line_of(const std::string& text, const std::string& number) {
   std::istringstream lines(text);
   for (std::string line; std::getline(lines, line);)
@@ -193,8 +192,8 @@ std::string line_of(const std::string& text, const std::string& number) {
   return {};
 }
 
-/// Whether the fixed program does the same. Where the program stops at a line that the fix has
-/// changed (`next` of nobody), what it did until then stays.
+/// Returns true if the fixed program does the same. If the program stops at a line that the fix
+/// changed (an unmatched `next`), compares what it did until then.
 bool does_the_same(const std::string& text, const std::string& fixed) {
   const auto before = run(text).notes;
   const auto after = run(fixed).notes;
@@ -208,7 +207,7 @@ bool does_the_same(const std::string& text, const std::string& fixed) {
          after.starts_with(before.substr(0, stop));
 }
 
-// Safe fixes of a program that parses do not change what it does.
+// Safe fixes do not change the effect of a program that parses.
 TEST(Property, SafeFixesKeepBehaviour) {
   for (std::uint64_t seed = 0; seed < programs; ++seed) {
     const auto text = valid_program(seed);
@@ -238,8 +237,8 @@ TEST(Property, WhatCheckAcceptsNeverFailsToParseOnTheRobot) {
   EXPECT_GT(accepted, 300U);
 }
 
-// The linter is never wrong about a program that works: a line with an error that the robot would
-// report does not run through.
+// The linter's errors are certain: a line with an error that the robot would report never
+// completes.
 TEST(Property, LinesWithAnErrorStopTheRobot) {
   std::size_t met = 0;
   std::set<std::string_view> rules_met;
@@ -250,7 +249,7 @@ TEST(Property, LinesWithAnErrorStopTheRobot) {
     const auto checked = check(text, {});
     std::set<std::uint32_t> doomed;
     for (const auto& d : checked.diagnostics) {
-      // An `if` may not take the branch that is meant.
+      // An `if` may take the other branch.
       const auto line = std::find_if(
           checked.program.lines.begin(), checked.program.lines.end(),
           [&](const Line& l) { return l.span.begin <= d.span.begin && d.span.begin < l.span.end; });
@@ -301,7 +300,7 @@ TEST(Property, RenumberingKeepsThePathOfAProgram) {
   EXPECT_GT(renumbered, 100U);
 }
 
-// Bytes without any sense: no crash, and every span lies within the text.
+// Random bytes: no crash, and every span lies within the text.
 TEST(Property, AnyBytesAreSurvived) {
   Random random{3};
   for (int n = 0; n < 3000; ++n) {
@@ -316,7 +315,7 @@ TEST(Property, AnyBytesAreSurvived) {
     ASSERT_EQ(formatted, format(parse(formatted))) << text;
     static_cast<void>(load(text));
     if (n % 20 != 0)
-      continue; // nearly each line is wrong, and what would mend it is looked for
+      continue; // nearly every line is wrong and gets a repair
     const auto checked = check(text, {});
     for (const auto& d : checked.diagnostics) {
       ASSERT_LE(d.span.begin, d.span.end);

@@ -44,7 +44,7 @@ TEST(Range, CountsTheCharactersOfPrintedNumbers) {
   EXPECT_EQ(printed(Range{-359, -5}).most, 4U);
 }
 
-/// What the machine makes of it; nothing where it would stop.
+/// Returns the machine's result; nothing if it would stop.
 std::optional<std::int32_t> calculate(spec::Operator op, std::int32_t a, std::int32_t b) {
   const bool shift = b >= 0 && b <= 31;
   switch (op) {
@@ -64,7 +64,7 @@ std::optional<std::int32_t> calculate(spec::Operator op, std::int32_t a, std::in
   return std::nullopt;
 }
 
-/// A number that is often near an edge.
+/// Returns a number that is often close to a limit.
 std::int32_t number(Random& random) {
   switch (random.below(4)) {
   case 0: return static_cast<std::int32_t>(random.below(20)) - 10;
@@ -87,7 +87,7 @@ std::int32_t within(Random& random, Range range) {
   return static_cast<std::int32_t>(range.lo + static_cast<std::int64_t>(random.below(size)));
 }
 
-// Whatever the machine computes from operands in two ranges lies in the range that was foretold.
+// The computed range contains every result for operands from two ranges.
 TEST(Range, HoldsWhatTheMachineComputes) {
   Random random{11};
   for (int n = 0; n < 200000; ++n) {

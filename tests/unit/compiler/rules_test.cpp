@@ -50,8 +50,7 @@ TEST(Rules, ABlankIsMissingOnlyWhereSomethingFollows) {
   EXPECT_FALSE(raises("70000\n10 end", rules::MissingBlank));
 }
 
-// The texts of those who use the library end without a NUL; what reads on is seen by the
-// sanitizers.
+// Users of the library may pass texts without a final NUL; sanitizers detect reads beyond the end.
 TEST(Rules, NothingIsReadBehindAText) {
   std::vector<std::string_view> texts{"10 goto \"10\""};
   for (const auto& rule : rules::all())
@@ -71,8 +70,8 @@ TEST(Rules, ANextInABranchMayHaveEndedTheLoopOrNot) {
   EXPECT_TRUE(raises("10 for I = 1 to 3\n20 next I\n30 next I\n40 end\n", rules::NextWithoutFor));
 }
 
-// Each line of it is the beginning of a subroutine and runs in all that begin above: followed one
-// by one these would take minutes.
+// Each line starts a subroutine and also runs in all that start above it: following them separately
+// would take minutes.
 TEST(Rules, ManyCallsOfTheSameLinesAreFollowedTogether) {
   constexpr int calls = 2200; // as many as a file may hold
   for (const std::string last : {"end", "return"}) {
@@ -99,7 +98,7 @@ TEST(Rules, AByteThatIsNotPrintableIsSeenWhereverItStands) {
     }
 }
 
-// A safe fix mends what it was made for, and fixing again changes nothing.
+// A safe fix removes its finding, and fixing again changes nothing.
 TEST(Rules, FixesOfTheBadExamplesAreFinal) {
   std::size_t fixed_rules = 0;
   for (const auto& rule : rules::all()) {

@@ -25,7 +25,7 @@ public:
   bool command() override { return true; }
 };
 
-/// Stops where the ball has run into something, or begun to roll.
+/// Stops when the ball has hit something, or has started to roll.
 class EveryBump final : public Watch {
 public:
   bool wants_lines() const override { return false; }
@@ -50,7 +50,7 @@ run::Input input_of(std::string name, std::string text) {
   return *std::move(input);
 }
 
-/// All of a session that a person, or the program, could see.
+/// Everything that a user or the program can observe in a session.
 std::string state(const Timeline& timeline) {
   const auto& ball = timeline.ball();
   const auto& machine = ball.machine();
@@ -153,8 +153,8 @@ TEST(Timeline, WhatWasChangedHappensAgain) {
   EXPECT_EQ(timeline.ball().machine().line(), 10);
 }
 
-/// Forward n, back n is the same state, for random programs and n; wherever one goes, the way there
-/// does not matter.
+/// n steps forward and n back lead to the same state, for random programs and n; the state does not
+/// depend on the way there.
 RC_GTEST_PROP(Timeline, BackIsWhereItWas, ()) {
   const auto seed = *rc::gen::inRange<std::uint64_t>(0, 1'000'000);
   testing::RandomProgram writer(seed, {.lines = 30, .wild_jump = 0.0, .comments = 0.0});
@@ -190,7 +190,7 @@ RC_GTEST_PROP(Timeline, BackIsWhereItWas, ()) {
     timeline.go_to(moments[there]);
     RC_ASSERT(state(timeline) == states[there]);
   }
-  // Step by step all the way back, and forth again to where it was.
+  // Goes back to the beginning step by step, then forward to the same place.
   timeline.go_to(moments.back());
   std::size_t at = moments.size() - 1;
   for (int i = 0; i < 300 && timeline.back(every, never_give_up) == Halt::Found; ++i) {
@@ -204,7 +204,7 @@ RC_GTEST_PROP(Timeline, BackIsWhereItWas, ()) {
   RC_ASSERT(session.silence.printed == printed);
 }
 
-/// Backwards finds the same places as forwards.
+/// Searching backwards finds the same places as forwards.
 RC_GTEST_PROP(Timeline, FindsTheSamePlacesBackwards, ()) {
   const auto seed = *rc::gen::inRange<std::uint64_t>(0, 1'000'000);
   testing::RandomProgram writer(seed, {.lines = 12, .wild_jump = 0.0, .comments = 0.0});

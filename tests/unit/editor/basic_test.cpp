@@ -1,4 +1,4 @@
-// What an editor may ask about an orbBasic program.
+// Requests of an editor about an orbBasic program.
 
 #include "tests/unit/editor/client.h"
 
@@ -10,7 +10,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-// Columns below count in this text.
+// Columns below refer to this text.
 constexpr auto program = "10 A = 1\n"                          // 0
                          "20 gosub 100\n"                      // 1
                          "30 if A < 9 then goto 20 else end\n" // 2

@@ -12,7 +12,7 @@
 
 namespace orb::editor {
 
-/// Files that a test has.
+/// The files of a test.
 class Disk final : public structured::Files {
 public:
   std::map<std::string, std::string> texts;
@@ -27,13 +27,13 @@ inline bool has(const std::string& text, std::string_view part) {
   return text.find(part) != std::string::npos;
 }
 
-/// A scripted editor: speaks to a server in this process and keeps what it answered.
+/// A scripted editor: talks to a server in this process and records its answers.
 class LspClient {
 public:
   using Json = nlohmann::json;
 
   LspClient() = default;
-  /// Starts a session in which a character is counted in `encoding`.
+  /// Starts a session that counts characters in `encoding`.
   explicit LspClient(const std::string& encoding) {
     request("initialize", {{"capabilities", {{"general", {{"positionEncodings", {encoding}}}}}}});
     notify("initialized", Json::object());
@@ -67,14 +67,14 @@ public:
     notify("textDocument/didOpen",
            {{"textDocument", {{"uri", name}, {"languageId", ""}, {"version", 1}, {"text", text}}}});
   }
-  /// A request about a place of the open document.
+  /// Sends a request about a place in the open document.
   Json at(const std::string& method, int line, int character, Json more = Json::object(),
           const std::string& name = uri) {
     more["textDocument"]["uri"] = name;
     more["position"] = {{"line", line}, {"character", character}};
     return request("textDocument/" + method, std::move(more))["result"];
   }
-  /// The same of the document `document`, and what an editor makes of the answers.
+  /// The same for the document `document`, with the answers as an editor shows them.
   Json ask(const std::string& method, int line, int character, Json more = Json::object()) {
     return at(method, line, character, std::move(more), document);
   }
@@ -87,7 +87,7 @@ public:
     return std::any_of(found["items"].begin(), found["items"].end(),
                        [&](const Json& item) { return item["label"] == label; });
   }
-  /// Where a new name is written, or why it cannot be.
+  /// Returns the places of a rename, or why it is refused.
   std::string renamed(int line, int character, const std::string& name) {
     const auto response =
         request("textDocument/rename", {{"textDocument", {{"uri", document}}},
@@ -96,7 +96,7 @@ public:
     return response.contains("error") ? response["error"]["message"].get<std::string>()
                                       : places(response["result"]["changes"][document]);
   }
-  /// `line:from-to` for each range of a list.
+  /// Returns `line:from-to` for each range of a list.
   static std::string places(const Json& list) {
     std::string out;
     for (const auto& one : list) {
@@ -106,7 +106,7 @@ public:
     }
     return out;
   }
-  /// The codes of the latest findings.
+  /// Returns the codes of the latest findings.
   std::vector<std::string> codes() const {
     std::vector<std::string> found;
     for (const auto& one : diagnostics)

@@ -1,4 +1,4 @@
-// The language server as an editor meets it: sessions, encodings, changes, nonsense.
+// The language server as an editor uses it: sessions, encodings, changes, invalid messages.
 
 #include "tests/unit/editor/client.h"
 
@@ -117,7 +117,7 @@ TEST(LspChanges, RangesOutsideTheTextAreCutAndTurnedAround) {
 }
 
 TEST(LspChanges, ColumnsCountWhatWasNegotiated) {
-  // The string holds a character of two UTF-16 units, four bytes and one code point.
+  // The string contains a character of two UTF-16 units, four bytes and one code point.
   const std::string text = "10 print \"\xF0\x9F\x98\x80\"\n20 print \"\xF0\x9F\x98\x80\" rgb\n";
   const auto column = [&](const char* encoding) {
     LspClient client(encoding);
@@ -141,8 +141,8 @@ RC_GTEST_PROP(LspChanges, ManySmallChangesAreAsGoodAsOneWhole, ()) {
   LspClient client(encoding);
   LspClient whole("utf-32");
   client.open("10 end\n");
-  // Edits at line starts and line ends only need no counting of characters here: the end of a line
-  // is any large number.
+  // Edits at line starts and ends need no counting of characters: any large number means the end of
+  // a line.
   std::vector<std::string> lines = {"10 end", ""};
   for (int i = 0; i < 6; ++i) {
     const auto line = *rc::gen::inRange<std::size_t>(0, lines.size());
@@ -160,7 +160,7 @@ RC_GTEST_PROP(LspChanges, ManySmallChangesAreAsGoodAsOneWhole, ()) {
     std::string text;
     for (std::size_t k = 0; k < lines.size(); ++k)
       text += lines[k] + (k + 1 < lines.size() ? "\n" : "");
-    // Cut again: the piece may have brought line ends.
+    // Split again: the inserted text may contain line ends.
     lines.clear();
     std::string current;
     for (std::size_t k = 0; k < text.size(); ++k) {
@@ -231,7 +231,7 @@ TEST(LspNonsense, IsAnsweredAndSurvived) {
   EXPECT_EQ(code(R"({"method":"textDocument/didOpen","params":{"textDocument":{}}})"), 0);
   EXPECT_EQ(code(R"({"method":"textDocument/didClose"})"), 0);
   EXPECT_EQ(code(R"({"method":"$/cancelRequest","params":{"id":1}})"), 0);
-  // Afterwards it still works.
+  // It must still work afterwards.
   EXPECT_FALSE(client.at("hover", 0, 4).is_null());
 }
 

@@ -1,6 +1,6 @@
-// What an editor may ask about macro source.
+// Requests of an editor about macro source.
 
-#include "assembler/text/parse.h"
+#include "assembler/text/parse_macro.h"
 #include "editor/directives.h"
 #include "tests/unit/editor/client.h"
 
@@ -14,7 +14,7 @@ using Json = nlohmann::json;
 
 const std::string macro_uri = "file:///dance.macro";
 
-// Columns below count in this text.
+// Columns below refer to this text.
 constexpr auto macro_text = ".const fast = 200\n"               // 0
                             ".macro dance id=40 flags=endsig\n" // 1
                             "  roll fast, 90, delay=200ms\n"    // 2

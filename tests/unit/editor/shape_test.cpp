@@ -1,4 +1,4 @@
-// What the language server says of the shape of a text: colours, folds, what surrounds a place,
+// The language server's answers about the shape of a text: colours, folds, selection ranges,
 // signatures, links, lenses, calls.
 
 #include "editor/languages/shape.h"
@@ -16,7 +16,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// `word:color` of each coloured piece, with `+` and the numbers of its traits.
+/// Returns `word:color` for each coloured piece, with `+` and the numbers of its traits.
 std::string colored(const LanguageService& language, const std::string& text,
                     const LanguageOptions& options = {}) {
   const Source source("a", text);
@@ -38,7 +38,7 @@ std::string folded(const LanguageService& language, const std::string& text) {
   return out;
 }
 
-/// The signature at the `|` in `text`, the active parameter in angle brackets.
+/// Returns the signature at the `|` in `text`, with the active parameter in angle brackets.
 std::string signed_at(const LanguageService& language, std::string text) {
   const auto at = text.find('|');
   text.erase(at, 1);

@@ -1,4 +1,4 @@
-// What an editor may ask about a structured structured_text.
+// Requests of an editor about a structured program.
 
 #include "tests/unit/editor/client.h"
 
@@ -11,7 +11,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-// Columns below count in this text.
+// Columns below refer to this text.
 constexpr auto structured_text = "const side = 1.5s\n"             // 0
                                  "array visits[4]\n"               // 1
                                  "' drives one side\n"             // 2
@@ -54,7 +54,7 @@ TEST(Structured, IsCheckedAsWhatItIs) {
   StructuredSession session("turns = 1\nprint turnes\n");
   EXPECT_EQ(session.codes(), (std::vector<std::string>{"unknown-name"}));
   StructuredSession good;
-  // Its last call drives along 450 degrees where `rnd` gives 3.
+  // If `rnd` returns 3, the last call drives along 450 degrees.
   EXPECT_EQ(good.codes(), (std::vector<std::string>{"may-leave-range", "unstructured"}));
 }
 
@@ -82,7 +82,7 @@ TEST(Structured, DefinitionsAndReferences) {
   EXPECT_EQ(StructuredSession::places(session.ask("references", 12, 4)),
             "12:4-5 13:6-7 14:12-13 15:5-6");
   EXPECT_EQ(StructuredSession::places(session.ask("definition", 19, 24)), "16:0-5");
-  // Its declaration, not what it is set to.
+  // Its declaration, not its value.
   EXPECT_EQ(StructuredSession::places(session.ask("definition", 18, 8)), "1:6-12");
 }
 
@@ -149,7 +149,7 @@ TEST(Structured, HintsSayLettersAndBytes) {
   for (const auto& hint : session.of_all("inlayHint"))
     hints += hint["position"]["line"].dump() + ":" + hint["position"]["character"].dump() +
              hint["label"].get<std::string>() + "\n";
-  // `turns` is computed where it is used and needs no letter.
+  // `turns` is inlined and needs no letter.
   EXPECT_EQ(hints, "0:9: N\n0:1070 bytes\n5:8no bytes of its own\n");
 }
 
@@ -160,7 +160,7 @@ TEST(Structured, OpenDocumentsAreIncluded) {
   EXPECT_TRUE(client.codes().empty());
 }
 
-/// `name:line:from-to` for each place of an answer.
+/// Returns `name:line:from-to` for each place in an answer.
 std::string far_places(const nlohmann::json& locations) {
   std::string text;
   for (const auto& one : locations) {

@@ -1,10 +1,10 @@
-// A structured program as rows: what a page makes blocks of.
+// A structured program as rows, from which the page makes blocks.
 
 #include "editor/languages/structured/tree.h"
 
 #include "spec/basic.h"
 #include "structured/layout/format.h"
-#include "structured/text/words.h"
+#include "structured/text/structured_words.h"
 #include "tests/unit/structured/random_structured.h"
 
 #include <gtest/gtest.h>
@@ -19,7 +19,7 @@ Json rows_of(std::string_view text) {
   return Json::parse(structured_tree(text)).at("rows");
 }
 
-/// Each row as its kind, its text and what else it has besides its items.
+/// Returns each row as its kind, its text and its members other than items.
 std::string brief(const Json& row) {
   auto text = std::to_string(row.at("line").get<int>()) + " " + row.at("kind").get<std::string>();
   for (const auto* key : {"block", "word", "name", "sign", "after_blank", "last", "indent", "text",
@@ -36,7 +36,7 @@ std::vector<std::string> brief_rows(std::string_view text) {
   return all;
 }
 
-/// An expression as nested lists.
+/// Returns an expression as nested lists.
 std::string listed(const Json& node) {
   auto text = std::string(node.value("groups", std::size_t{0}), '(') +
               node.at("kind").get<std::string>() + ":" + node.at("text").get<std::string>();
@@ -122,7 +122,7 @@ TEST(StructuredTree, LeavesWhatIsTooLargeAsText) {
   EXPECT_EQ(rows.at(64).at("kind"), "text");
 }
 
-/// The rows written one below the other, which blocks are to come to.
+/// Returns the rows as text, to which the blocks must lead back.
 std::string written(const Json& rows) {
   std::string out;
   int level = 0;

@@ -1,4 +1,4 @@
-// What an editor may ask about a test file.
+// Requests of an editor about a test file.
 
 #include "tests/unit/editor/client.h"
 

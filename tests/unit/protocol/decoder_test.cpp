@@ -8,7 +8,7 @@ namespace {
 
 using Kind = Item::Kind;
 
-/// What a decoder finds, with owned bytes.
+/// An item found by a decoder, with bytes of its own.
 struct Found {
   Kind kind;
   std::uint8_t did_or_code;
@@ -95,7 +95,7 @@ TEST(Decoder, SkipsNoiseAndReportsItOnce) {
 }
 
 TEST(Decoder, AStrayFFBeforeAPacketCostsOnlyItself) {
-  // FF FF FF 00 … reads as device FFh at first, which would wait for 81 bytes more.
+  // FF FF FF 00 … first looks like device FFh, which would wait for 81 more bytes.
   Decoder decoder(Direction::ToBall);
   const auto bytes = Bytes{0xFF} + ping_bytes;
   decoder.feed(bytes);
@@ -153,7 +153,7 @@ TEST(Decoder, ADamagedMessageLengthDoesNotSwallowTheStream) {
   EXPECT_EQ(found.back().kind, Kind::Response);
 }
 
-/// Any mixture of packets and other bytes, with many of the bytes that start packets.
+/// Generates mixtures of packets and other bytes, with many start bytes.
 rc::Gen<Bytes> stream() {
   const auto byte = rc::gen::oneOf(rc::gen::elementOf(Bytes{0xFF, 0xFF, 0xFE, 0, 1, 2, 0x43, 0x47}),
                                    rc::gen::arbitrary<std::uint8_t>());
@@ -167,7 +167,7 @@ rc::Gen<Bytes> stream() {
                         Bytes all;
                         for (const auto& part : parts)
                           all.insert(all.end(), part.begin(), part.end());
-                        // Three FFh in a row are read by what has arrived so far.
+                        // The result for three FFh in a row depends on what has arrived so far.
                         for (std::size_t i = 2; i < all.size(); ++i)
                           if (all[i] == 0xFF && all[i - 1] == 0xFF && all[i - 2] == 0xFF)
                             all[i] = 0;
@@ -176,8 +176,8 @@ rc::Gen<Bytes> stream() {
 }
 
 TEST(Decoder, AStrayStartByteIsJudgedAlikeHoweverTheBytesArrive) {
-  // Read from its first byte this is a packet to device FFh of 53h bytes, read from its second a
-  // ping: the ping is whole first.
+  // Read from the first byte this is a packet to device FFh of 53h bytes, read from the second a
+  // ping: the ping is complete first.
   auto bytes = Bytes{spec::sop1};
   encode(make_command(spec::ApiCommand::Ping, {}, 0x52), bytes);
   bytes.resize(100, 0);
@@ -202,11 +202,11 @@ TEST(Decoder, KeepsWhatNobodyAskedForYet) {
     auto fed = ping;
     fed.insert(fed.end(), ping.begin(), ping.end());
     decoder.feed(fed);
-    std::fill(fed.begin(), fed.end(), std::uint8_t{0}); // they are gone
+    std::fill(fed.begin(), fed.end(), std::uint8_t{0}); // the decoder must have copied them
     EXPECT_TRUE(decoder.next());
   }
   drain(decoder, found);
-  EXPECT_EQ(found.size(), 2U); // of the four, the two that were left
+  EXPECT_EQ(found.size(), 2U); // two of the four were left
   for (const auto& item : found)
     EXPECT_EQ(item.kind, Kind::Command);
 }
@@ -229,7 +229,7 @@ RC_GTEST_PROP(Decoder, FindsTheSameHoweverTheBytesArrive, (bool to_ball)) {
     drain(pieces, found);
     at += size;
   }
-  // Noise may come in other portions; packets may not.
+  // Noise may be divided differently; packets may not.
   const auto is_noise = [](const Found& item) { return item.kind == Kind::Noise; };
   std::erase_if(expected, is_noise);
   std::erase_if(found, is_noise);

@@ -15,7 +15,7 @@ FaultPlan plan_of(std::string_view text) {
   return plan.value_or(FaultPlan{});
 }
 
-/// Everything that comes out one way, waiting a minute.
+/// Takes everything that arrives within a minute in one direction.
 Bytes take_all(FaultPipe& pipe, Direction direction, Instant now = start) {
   Bytes out;
   while (true) {

@@ -14,7 +14,7 @@ struct Row {
   std::string hex;
 };
 
-/// What the vendor's own macro classes write, and the quick reference for the codes that they lack.
+/// Bytes written by the vendor's macro classes, and by the quick reference for codes missing there.
 const Row rows[] = {
     {MacroCommand::End, {}, "00"},
     {MacroCommand::SetSd1, {0x1234}, "01 12 34"},

@@ -42,7 +42,7 @@ TEST(PacketV2, ReadsTargetSourceAndErrorWhereTheFlagsSaySo) {
 TEST(PacketV2, FindsPacketsAfterNoiseLostEndsAndBadChecksums) {
   auto stream = Bytes{0x00, 0x01};
   const auto good = encode(PacketV2{.flags = 2, .did = 1, .cid = 2, .seq = 3, .data = {}});
-  stream.insert(stream.end(), good.begin(), good.end() - 1); // its end is lost
+  stream.insert(stream.end(), good.begin(), good.end() - 1); // without its end
   stream.insert(stream.end(), good.begin(), good.end());
   auto damaged = good;
   damaged[2] ^= 4;
@@ -58,7 +58,7 @@ TEST(PacketV2, FindsPacketsAfterNoiseLostEndsAndBadChecksums) {
 }
 
 TEST(PacketV2, AnEscapeOfAnyOtherByteIsNoise) {
-  // 2Bh with the bits 88h is ABh too, but only 23h is its escape.
+  // 2Bh with the bits 88h is also ABh, but only 23h is its escape.
   const auto items = decode({0x8D, 0x02, 0x01, 0x02, 0x03, 0xAB, 0x2B, 0x4C, 0xD8});
   ASSERT_EQ(items.size(), 1u);
   EXPECT_EQ(items[0].kind, ItemV2::Kind::Noise);

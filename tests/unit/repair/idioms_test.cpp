@@ -57,10 +57,10 @@ std::set<char> holes_of(std::string_view pattern) {
   return holes;
 }
 
-/// The holes that each place of a form needs: of `{a}{n}` one, of `{dice:a,b}` all.
+/// Returns the holes that each place of a form needs: one of `{a}{n}`, all of `{dice:a,b}`.
 std::vector<std::vector<std::string>> needs_of(std::string_view form) {
   std::vector<std::vector<std::string>> needs;
-  bool beside = false; // the place before ended here
+  bool beside = false; // the previous place ended here
   for (std::size_t at = 0; at < form.size(); ++at) {
     if (form[at] != '{' || form.substr(at, 2) == "{{") {
       at += form.substr(at, 2) == "{{" ? 1 : 0;
@@ -71,7 +71,7 @@ std::vector<std::vector<std::string>> needs_of(std::string_view form) {
     auto inner = form.substr(at + 1, end - at - 1);
     const auto colon = inner.find(':');
     std::string holes;
-    const bool may_lack = inner == "zero:e"; // nothing is 0
+    const bool may_lack = inner == "zero:e"; // a missing value is 0
     if ((colon != std::string_view::npos || inner.size() == 1) && !may_lack)
       for (const auto& hole : parted(inner.substr(colon + 1), ","))
         holes += hole;
@@ -86,7 +86,7 @@ std::vector<std::vector<std::string>> needs_of(std::string_view form) {
   return needs;
 }
 
-// A form that names what no hole of a pattern holds writes a line with nothing there.
+// A form with a hole that its pattern lacks would write a line with a gap.
 TEST(Idioms, FormsNameWhatTheirPatternsHold) {
   for (const auto& row : rows)
     for (const auto& pattern : parted(row.patterns, " ;; ")) {

@@ -8,7 +8,7 @@
 namespace orb::repair {
 namespace {
 
-/// Lines around an example, which have the names that it uses.
+/// Lines around an example, with the names that it uses.
 std::string_view around(Language language) {
   switch (language) {
   case Language::Basic: return "\n20 start: A = 1\n30 B = 2\n40 print A B N\n";
@@ -36,7 +36,7 @@ Language first_of(std::uint8_t languages) {
   return Language::Basic;
 }
 
-/// An example as one rewrite reads it.
+/// Applies one rewrite to an example.
 std::string read(const Rewrite& row) {
   const auto language = first_of(row.languages);
   const auto dialect = dialect_of(language);

@@ -20,7 +20,7 @@ std::string without_blanks(std::string text) {
   return text;
 }
 
-/// Judges with a parser that takes nothing but `also`, whatever its blanks.
+/// Judges with a parser that accepts only `also`, with any blanks.
 bool same(Language language, std::string_view said, std::string_view written,
           std::vector<std::string> also = {}, const std::vector<std::string>& names = {}) {
   const auto parses = [&](std::string_view line) {

@@ -14,7 +14,7 @@ CourseReading read(std::string text) {
   return read_course(Source("halls/hall.svg", std::move(text)));
 }
 
-/// What `inside` draws, with a start at 0,0 that faces up.
+/// Reads a drawing of `inside` and a start at 0,0 that faces up.
 Course course(const std::string& inside) {
   auto reading = read("<svg><circle class='start' r='4'/>" + inside + "</svg>");
   for (const auto& one : reading.findings)
@@ -160,7 +160,7 @@ TEST(Zone, TellsHowFarItIs) {
   EXPECT_DOUBLE_EQ(made.zone("a")->distance_cm({12, 12}), 0);
 }
 
-// A circle is itself whatever the way it was drawn; the rings that draw it agree with it.
+// A circle does not depend on how it was drawn, and the rings that draw it agree with it.
 RC_GTEST_PROP(Zone, TurnsWithTheStart, ()) {
   const int heading = *rc::gen::inRange(0, 360);
   const int x = *rc::gen::inRange(-100, 100);

@@ -57,7 +57,7 @@ Journey square() {
   return journey;
 }
 
-/// One with a picture at 70 ms.
+/// A journey with a picture at 70 ms.
 Journey pictured(spec::Robot robot) {
   auto journey = square();
   journey.set_robot(robot);
@@ -76,7 +76,7 @@ TEST(Journey, KeepsThePicturesOfAMatrix) {
             std::string::npos);
   Shown shown;
   EXPECT_NE(growth_json(journey, shown).find("\"pixels\":[\"00000001ABFF"), std::string::npos);
-  EXPECT_EQ(growth_json(journey, shown).find("pixels"), std::string::npos); // it was told
+  EXPECT_EQ(growth_json(journey, shown).find("pixels"), std::string::npos); // already reported
 }
 
 TEST(Journey, HasAMatrixOnlyWhereTheRobotHasOne) {
@@ -96,7 +96,7 @@ TEST(Trace, HasThePictureOfAMatrix) {
       << json;
   EXPECT_TRUE(json.ends_with("000000\"}\n")) << json;
   EXPECT_EQ(json.find_last_of('"') - json.find("FF0001"), 64 * 6U);
-  // No column of its own: all traces have the same.
+  // No separate column: all traces have the same columns.
   const auto csv = trace_line(TraceFormat::Csv, ms(5), picture);
   const auto head = trace_head(TraceFormat::Csv);
   EXPECT_EQ(std::count(csv.begin(), csv.end(), ','), std::count(head.begin(), head.end(), ','));
@@ -150,7 +150,7 @@ TEST(Report, NoTextOfAProgramEndsItsScript) {
   for (auto at = page.find("</script>"); at != std::string::npos;
        at = page.find("</script>", at + 1))
     ++ends;
-  EXPECT_EQ(ends, 3U); // of the data, of the run before, and of the script
+  EXPECT_EQ(ends, 3U); // of the data, the earlier run and the script
   EXPECT_EQ(page.find("<!--"), std::string::npos);
   EXPECT_EQ(page.find("/*{"), std::string::npos) << "a place was not filled";
 }

@@ -12,7 +12,7 @@
 namespace orb::run {
 namespace {
 
-/// A robot with numbers of its own, which trembles in what it says and loses some of it.
+/// A robot with hidden parameters, noisy samples and gaps in them.
 class Hidden final : public HeldRobot {
 public:
   explicit Hidden(const spec::Driving& numbers, Duration between = 30ms, double lost = 0.02,
@@ -21,14 +21,15 @@ public:
 
   double noise_cm = 0.5;
   double noise_deg = 1;
-  int deaf_at = -1; ///< this order does not arrive
+  int deaf_at = -1; ///< index of an order that is lost
   bool held_fast = false;
   bool braked = false;
   Duration silent_from{};
   Duration silent_until{};
-  std::function<void(vm::Sample&)> twist = [](auto&) {};   ///< what it says
-  std::function<void(vm::Motion&)> mistake = [](auto&) {}; ///< what it is told
-  double farthest_cm = 0;                                  ///< along an axis, from where it stood
+  std::function<void(vm::Sample&)> twist = [](auto&) {};   ///< falsifies samples
+  std::function<void(vm::Motion&)> mistake = [](auto&) {}; ///< falsifies orders
+  /// Along an axis, from its starting place.
+  double farthest_cm = 0;
 
   void obey(const vm::Motion& motion) override {
     const auto* roll = std::get_if<vm::Roll>(&motion);
@@ -68,7 +69,7 @@ private:
     constexpr std::uint64_t grain = 1'000'000;
     return most * static_cast<double>(random_.below(grain)) / grain;
   }
-  /// About normal: the sum of three.
+  /// Approximately normal: the sum of three uniform numbers.
   double noise(double sigma) { return sigma * 2 * (draw(1) + draw(1) + draw(1) - 1.5); }
 
   vm::Body body_;
@@ -81,7 +82,7 @@ private:
   Random random_;
 };
 
-/// The model's numbers, each so many times what they are.
+/// Returns the model's parameters, each multiplied.
 spec::Driving changed(spec::Robot robot, const std::array<double, driving_rows.size()>& times) {
   const auto model = spec::driving(robot);
   auto numbers = model;
@@ -112,7 +113,7 @@ constexpr std::array<double, driving_rows.size()> changes[] = {
     {1.4, 0.7, 1.4, 0.7, 1.4, 0.7}, {1.2, 0.9, 1.3, 0.7, 1.1, 1.0}, {1, 1, 1, 1, 1, 1},
 };
 
-/// Each number is found within 5 %, and a square that was driven by them ends four times nearer.
+/// Expects each parameter within 5 %, and a square driven with them to end four times closer.
 void expect_found(const spec::Driving& hidden, const Calibration& found) {
   std::string all;
   for (std::size_t row = 0; row < driving_rows.size(); ++row) {
@@ -124,7 +125,7 @@ void expect_found(const spec::Driving& hidden, const Calibration& found) {
   }
   const double before = apart(end_of_square(hidden), end_of_square(found.before));
   const double after = apart(end_of_square(hidden), end_of_square(found.after));
-  constexpr double tiny_cm = 0.5; // what is right already cannot become better
+  constexpr double tiny_cm = 0.5; // a correct value cannot improve
   EXPECT_LT(after, std::max(tiny_cm, before / 4)) << all;
   fmt::print("{}; square {:.1f} cm, {:.1f} cm\n", all, before, after);
 }
@@ -148,7 +149,7 @@ double between(Random& random, double least, double most) {
   return least + (most - least) * static_cast<double>(random.below(grain)) / grain;
 }
 
-/// Of a robot that nobody had measured when its model was written.
+/// Returns random parameters, for a robot that the model does not know.
 spec::Driving random_numbers(spec::Robot robot, Random& random) {
   auto numbers = spec::driving(robot);
   numbers.speed_offset = between(random, 0, 30);
@@ -160,8 +161,8 @@ spec::Driving random_numbers(spec::Robot robot, Random& random) {
   return numbers;
 }
 
-/// The numbers that are more than 10 % off: of what they are or, because offset, lag and dead time
-/// may be 0, of the model's.
+/// Lists parameters more than 10 % off: of their value or, because offset, lag and dead time may be
+/// 0, of the model's.
 std::string off(const Calibration& found, const spec::Driving& hidden) {
   std::string text;
   for (std::size_t row = 0; row < driving_rows.size(); ++row) {
@@ -179,8 +180,8 @@ std::string off(const Calibration& found, const spec::Driving& hidden) {
   return text;
 }
 
-/// What came of a course: nothing was refused, it stayed in the square, and what a profile says of
-/// it is read as it was written.
+/// Expects a course that was not refused and stayed in the square, and a profile that survives a
+/// round trip.
 Calibration calibrated(Hidden& far, spec::Robot robot) {
   const auto legs = drive_course(far, robot, {});
   EXPECT_TRUE(legs.has_value()) << legs.error().message;
@@ -226,7 +227,7 @@ TEST(Calibrate, FindsNumbersAtTheEnds) {
     Hidden at_once(prompt, sample_time(robot));
     EXPECT_EQ(off(calibrated(at_once, robot), prompt), "");
     auto late = spec::driving(robot);
-    late.speed_offset = -15 * late.speed_slope; // it stands still up to 15
+    late.speed_offset = -15 * late.speed_slope; // it does not move below 15
     late.speed_lag = 1;
     late.dead_steps = 100;
     Hidden slowly(late, sample_time(robot));
@@ -238,7 +239,7 @@ TEST(Calibrate, FindsNumbersAtTheEnds) {
   }
 }
 
-/// As fast as any that can be measured.
+/// Parameters of the fastest robot that can be measured.
 spec::Driving fast_numbers() {
   auto numbers = spec::driving(spec::Robot::Sphero);
   numbers.speed_offset = 30;
@@ -281,7 +282,7 @@ TEST(Calibrate, ANumberThatTheLegsLeaveOpenStaysTheModels) {
   const auto found = fit(alike, robot);
   ASSERT_TRUE(found.has_value()) << found.error().message;
   EXPECT_EQ(found->doubt, "");
-  // One of the two of the line of speeds: the other gives the speed of these legs.
+  // One of the two speed parameters is open: the other determines the speed of these legs.
   EXPECT_NE(found->open[0], found->open[1]);
   for (std::size_t row = 0; row < driving_rows.size(); ++row)
     if (found->open[row]) {
@@ -304,7 +305,7 @@ TEST(Calibrate, ALegWhoseOrderWasLostIsLeftOut) {
   expect_found(hidden, *found);
 }
 
-/// Why the numbers of a drive are refused, or the drive itself. Numbers are there all the same.
+/// Returns why a drive or its parameters are refused. The parameters exist all the same.
 std::string refusal(Hidden& far, spec::Robot robot) {
   const auto legs = drive_course(far, robot, {});
   if (!legs)

@@ -16,7 +16,7 @@ TEST(Input, IsCheckedOnceAndOnlyWhenSomebodyAsks) {
   for (const auto& [name, text] : {std::pair("a.bas", "10 goroll 400,90,1\n"),
                                    std::pair("a.macro", "rgb 1 2 3\nrgb 4 5 6\n")}) {
     const auto input = input_of(name, text);
-    EXPECT_FALSE(input.has_errors()) << name; // it can be run, to see how it stops
+    EXPECT_FALSE(input.has_errors()) << name; // it may run, to show how it stops
     EXPECT_TRUE(input.checked->files.empty()) << name;
     const auto& found = findings(input);
     EXPECT_FALSE(found.front().diagnostics.empty()) << name;

@@ -1,4 +1,4 @@
-// The variables that a report shows: by their names, where they changed.
+// The variables shown by a report, by name and place of change.
 
 #include "run/run.h"
 
@@ -14,7 +14,7 @@ public:
   void on_fault(Duration, const ProgramError&) override {}
 };
 
-/// `name:value,value…` of each variable that changed, in the order of the journey.
+/// Returns `name:value,value…` of each variable that changed, in the order of the journey.
 std::string named_changes(const std::string& name, const std::string& text) {
   structured::NoFiles files;
   std::vector<Input> inputs;
@@ -49,7 +49,7 @@ TEST(NamedValues, AreTheNamesOfAStructuredProgram) {
                                    "  twice = n * 2 + speed\n  seen[n] = twice\n  turns += twice\n"
                                    "end sub\nfor i = 1 to 3\n  leg(i)\nnext i\nleg(3)\n"
                                    "print turns, seen[2]\n"),
-            // What moves to its only reader is held by no letter: the last sum.
+            // The last sum moves directly to its only reader, so no letter holds it.
             "i:1,2,3,4 twice/leg:2,4,6 n/leg:1,2,3 turns:2,6,12 seen[1]:2 seen[2]:4 seen[3]:6");
 }
 

@@ -12,7 +12,7 @@
 namespace orb::run {
 namespace {
 
-/// Hears what goes to the robot.
+/// Records what is sent to the robot.
 class Overheard final : public protocol::Transport {
 public:
   explicit Overheard(protocol::Transport& link) : link_(link) {}
@@ -28,7 +28,7 @@ public:
     return link_.read(deadline);
   }
 
-  /// The data of the commands to the matrix, in the order in which they left.
+  /// Returns the data of the matrix commands in the order sent.
   std::string on_matrix() const {
     std::string text;
     for (const auto& packet : packets)
@@ -54,7 +54,7 @@ struct Scene {
   void live(Duration time) {
     for (const auto end = link.now() + time; link.now() < end;) {
       pilot.watch();
-      ASSERT_TRUE(tether.pump(end, [&](const Said& said) { pilot.hear(said); }));
+      ASSERT_TRUE(tether.pump(end, [&](const RobotMessage& said) { pilot.hear(said); }));
     }
   }
 
@@ -73,7 +73,7 @@ TEST(Pilot, EveryLampThatIsPaintedArrives) {
   scene.pilot.paint(0, -1, {255, 0, 0});
   scene.pilot.paint(0, 7, {0, 0, 1});
   EXPECT_EQ(scene.pilot.picture()[7 * 8], (vm::Color{0, 0, 1}));
-  // No later than the robot can take them: one each 75 ms, the first once setup has had its turn.
+  // As fast as the robot can take them: one every 75 ms, the first after setup.
   scene.live(75ms * 3 + 10ms);
   EXPECT_EQ(scene.link.on_matrix(), "set-matrix-pixel: 00 07 FF 00 00\n"
                                     "set-matrix-pixel: 01 07 FF 00 00\n"
@@ -97,7 +97,7 @@ TEST(Pilot, PaintingDoesNotKeepTheRobotFromDriving) {
   scene.pilot.steer(0, 60, 10s);
   for (int i = 0; i < 80; ++i)
     scene.pilot.paint(i % 8, i / 8 % 8, {255, 0, 0});
-  scene.live(4s); // longer than it would drive after one command
+  scene.live(4s); // longer than one command lasts
   EXPECT_TRUE(scene.far.drives());
   scene.pilot.stop();
   scene.live(500ms);
@@ -113,7 +113,7 @@ TEST(Pilot, SaysAText) {
             "scroll-matrix-text: 01 02 03 0A 00 41 3F 30 31 32 33 34 35 36 37 38 39 30 31 32 33 34 "
             "35 36 37 38 39 30 31 32 00\n");
   scene.live(30s);
-  EXPECT_EQ(scene.pilot.picture(), vm::filled({})); // it has left
+  EXPECT_EQ(scene.pilot.picture(), vm::filled({})); // the text has scrolled out
   scene.pilot.paint(1, 1, {9, 9, 9});
   scene.pilot.clear_matrix();
   EXPECT_EQ(scene.pilot.picture(), vm::filled({}));
@@ -131,11 +131,11 @@ TEST(Pilot, ARobotWithoutAMatrixIsToldNothing) {
   EXPECT_EQ(scene.link.on_matrix(), "");
 }
 
-/// Drives off and does not stop.
+/// Starts driving and does not stop.
 tl::expected<void, Failure> set_off(Tether& robot) {
   robot.obey(vm::Roll{0, 80, vm::Go::Drive});
   for (const auto end = robot.now() + 1s; robot.now() < end;)
-    if (auto pumped = robot.pump(end, [](const Said&) {}); !pumped)
+    if (auto pumped = robot.pump(end, [](const RobotMessage&) {}); !pumped)
       return pumped;
   return {};
 }

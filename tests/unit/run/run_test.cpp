@@ -22,8 +22,8 @@ public:
   int ran = 0;
 };
 
-/// Writes macros at random: every flag, jumps to what is there and to what is not, aborts, sleeps,
-/// some too long for one packet, some too long to be kept.
+/// Writes random macros: every flag, jumps to existing and missing ids, aborts, sleeps, some too
+/// long for one packet, some too long to be stored.
 std::string random_macros(Random& random) {
   constexpr std::string_view commands[] = {
       "marker 7", "delay 20",   "rgb 1 2 3",  "roll 20 90 1", "goto 41", "gosub 42",
@@ -84,7 +84,7 @@ Options random_options(Random& random) {
   return options;
 }
 
-// Whoever reads 0 may rely on it: something ran, or what did not is said.
+// Exit code 0 is reliable: something ran, or the reason why not is printed.
 RC_GTEST_PROP(Run, NeverSucceedsWithNothingRunAndNothingSaid, ()) {
   Random random{*rc::gen::arbitrary<std::uint64_t>()};
   const auto options = random_options(random);
@@ -108,7 +108,7 @@ RC_GTEST_PROP(Run, NeverSucceedsWithNothingRunAndNothingSaid, ()) {
     RC_ASSERT(counter.ran > 0);
 }
 
-/// Keeps what is printed.
+/// Collects prints.
 class Prints final : public Listener {
 public:
   void on_event(Duration, const vm::Event& event) override {
@@ -119,7 +119,7 @@ public:
   std::string text;
 };
 
-// While it waits the ball reports where it is: that is not the end of the run.
+// Position reports while it waits do not end the run.
 TEST(Live, ANumberThatIsWaitedForIsTakenHoweverLate) {
   structured::NoFiles files;
   Options options;

@@ -10,7 +10,7 @@ namespace {
 
 using protocol::PacketV2;
 
-/// Says one thing, and is silent from then on.
+/// Sends one answer and is then silent.
 class Once final : public protocol::Transport {
 public:
   explicit Once(Bytes said) : said_(std::move(said)) {}

@@ -19,7 +19,7 @@ constexpr std::string_view square = "10 for I = 0 to 3\n20 RGB 255,0,0\n30 gorol
                                     "40 delay 1000\n50 goroll I * 90,0,0\n60 delay 1500\n"
                                     "70 print xpos, ypos\n80 next I\n";
 
-/// Motors by hand: a ball without stabilization ignores a roll of speed 0.
+/// Raw motors: a ball without stabilization ignores a roll of speed 0.
 constexpr std::string_view raw = "10 raw 1,120,1,120\n20 delay 1000\n30 raw 0,0,0,0\n"
                                  "40 delay 1500\n50 print speed\n";
 constexpr std::string_view raw_for_ever = "10 raw 1,200,1,100\n20 delay 50000\n";
@@ -30,8 +30,8 @@ constexpr std::string_view raw_and_rolls =
     "60 goroll 90,80,1\n70 delay 600\n80 ctrl = 0\n90 delay 300\n100 raw 2,255,2,255\n"
     "110 delay 900\n";
 
-/// What the robot was told.
-struct Told : vm::Observer {
+/// Records commands to the robot.
+struct Recorder : vm::Observer {
   void on_event(Instant, const vm::Event& event) override {
     if (const auto* led = std::get_if<vm::event::Led>(&event))
       colors.push_back(led->color);
@@ -39,7 +39,7 @@ struct Told : vm::Observer {
   std::vector<vm::Color> colors;
 };
 
-struct Robot : Told, test::FarRobot {
+struct Robot : Recorder, test::FarRobot {
   explicit Robot(spec::Robot which, std::string_view plan = "seed=1")
       : FarRobot(which, *protocol::parse_fault_plan(plan), 10ms, this) {}
 };
@@ -130,7 +130,7 @@ TEST(Tether, RawMotorsGoOffHoweverARunEnds) {
   }
 }
 
-/// Whoever hears the run has a bug, from its first drive on.
+/// A listener that throws at the first drive command.
 struct Broken final : Listener {
   void on_event(Duration, const vm::Event& event) override {
     broken = broken || std::holds_alternative<vm::event::Drive>(event);
@@ -158,17 +158,18 @@ TEST(Tether, ABugStopsTheRobotBeforeItIsTold) {
 
 TEST(Tether, IsStoppedWhereWhoeverHearsItStopThrows) {
   for (const auto& row : spec::robots) {
-    // Samples come before the answers to the stop.
+    // Samples arrive before the answers to the stop.
     test::FarRobot robot(row.robot, *protocol::parse_fault_plan("seed=1"), 300ms);
     {
       Tether tether(*robot.link, row.robot, TetherBudgets{});
       ASSERT_TRUE(tether.begin(Aim::Zero)) << row.name;
       tether.obey(vm::Motors{{vm::MotorMode::Forward, 120}, {vm::MotorMode::Forward, 120}});
       for (const auto end = tether.now() + 1s; tether.now() < end;)
-        ASSERT_TRUE(tether.pump(end, [](const Said&) {})) << row.name;
+        ASSERT_TRUE(tether.pump(end, [](const RobotMessage&) {})) << row.name;
       EXPECT_TRUE(robot.drives()) << row.name;
-      EXPECT_THROW(tether.finish([](const Said&) { throw std::runtime_error("a vase fell"); }),
-                   std::runtime_error)
+      EXPECT_THROW(
+          tether.finish([](const RobotMessage&) { throw std::runtime_error("a vase fell"); }),
+          std::runtime_error)
           << row.name;
     }
     EXPECT_FALSE(robot.drives()) << row.name << " is left driving";
@@ -188,7 +189,7 @@ TEST(Tether, ARobotWithoutSamplesIsStoppedAfterHalfASecond) {
       ASSERT_TRUE(link.stopped) << row.name;
       const auto wait = *link.stopped - *link.last_sample;
       EXPECT_GE(wait, 450ms) << row.name;
-      EXPECT_LE(wait, 900ms) << row.name; // and up to three commands, each at its interval
+      EXPECT_LE(wait, 900ms) << row.name; // plus up to three commands, each at its interval
       EXPECT_FALSE(robot.drives()) << row.name;
     }
 }
@@ -214,10 +215,10 @@ TEST(Tether, APauseOfTheComputerPausesTheProgram) {
 TEST(Tether, ARobotThatIsAlwaysBusyIsARefusal) {
   constexpr std::string_view short_roll = "10 goroll 0,60,1\n20 delay 300\n";
   for (const auto which : {spec::Robot::Sphero, spec::Robot::Bolt})
-    for (const int least_speed : {0, 1}) // whether it takes the stop
+    for (const int least_speed : {0, 1}) // with and without accepting the stop
       for (const auto program : {square, raw, short_roll}) {
         if (program == raw && least_speed == 1)
-          continue; // raw motors that are off are no roll
+          continue; // switching raw motors off is not a roll
         Robot robot(which);
         test::BusyLink link(*robot.link, least_speed);
         Heard heard;
@@ -229,14 +230,15 @@ TEST(Tether, ARobotThatIsAlwaysBusyIsARefusal) {
       }
 }
 
-/// After any end no motor turns longer than 2.1 s, and none at all where the stop was acknowledged.
+/// However the run ends, no motor turns longer than 2.1 s, and none at all if the stop was
+/// acknowledged.
 void expect_stopped(Robot& robot, const tl::expected<TetheredEnding, Failure>& driven,
                     const std::string& words) {
   if (driven && driven->ending.robot_stopped.value_or(false)) {
     EXPECT_FALSE(robot.drives()) << words << " is left driving";
     return;
   }
-  robot.live_on(2100ms); // it stops by itself within two seconds of the last command
+  robot.live_on(2100ms); // it stops by itself within two seconds after the last command
   EXPECT_FALSE(robot.drives()) << words << " is left driving";
 }
 
@@ -286,6 +288,26 @@ TEST(Tether, ARobotThatIsHeldStandsStillAndGoesOnAsItDrove) {
     drive(vm::Roll{90, 60, vm::Go::Drive});
     drive(vm::Motors{{vm::MotorMode::Forward, 200}, {vm::MotorMode::Ignore, 0}});
   }
+}
+
+TEST(Tether, WhoeverHoldsTheLinkCanStopItsRobot) {
+  for (const auto& row : spec::robots)
+    for (const vm::Motion& motion :
+         {vm::Motion(vm::Roll{90, 60, vm::Go::Drive}),
+          vm::Motion(vm::Motors{{vm::MotorMode::Forward, 200}, {vm::MotorMode::Forward, 200}})}) {
+      Robot robot(row.robot);
+      Tether tether(*robot.link, row.robot, {});
+      ASSERT_TRUE(tether.begin(Aim::Zero)) << row.name;
+      tether.obey(motion);
+      for (const auto until = tether.now() + 1s; tether.now() < until;)
+        ASSERT_TRUE(tether.pump(until, [](const RobotMessage&) {})) << row.name;
+      EXPECT_TRUE(robot.drives()) << row.name;
+      ASSERT_TRUE(robot.link->write(tether.stop_packets())) << row.name;
+      for (const auto until = robot.link->now() + 300ms; robot.link->now() < until;)
+        ASSERT_TRUE(robot.link->read(until)) << row.name;
+      EXPECT_FALSE(robot.drives()) << row.name << " is left driving";
+      EXPECT_TRUE(robot.ball->body().stabilized()) << row.name;
+    }
 }
 
 TEST(Tether, AMotorThatIsIgnoredGoesOn) {
@@ -349,7 +371,7 @@ TEST(Tether, AMotorThatWasSwitchedOffStaysOff) {
   EXPECT_GT(std::stoi(heard.prints), 180) << "only the right wheel drives: it turns to the left";
 }
 
-/// A line of a stimulus script.
+/// Applies a line of a stimulus script.
 void happens(Robot& robot, const std::string& line) {
   const Source source("test", line);
   const auto script = vm::parse_stimulus(source);
@@ -364,7 +386,7 @@ TEST(Tether, EachRobotReportsTheWallItRunsInto) {
     Heard heard;
     const auto driven = run_on(robot, row.robot, "10 goroll 0,40,1\n20 delay 5000\n", heard);
     ASSERT_TRUE(driven && !driven->failure) << row.name;
-    if (row.sensors == spec::RobotSensors::Services) // it detects none
+    if (row.sensors == spec::RobotSensors::Services) // it detects no collisions
       continue;
     EXPECT_GE(heard.blows.size(), 1U) << row.name;
     if (!heard.blows.empty()) {
@@ -411,7 +433,7 @@ TEST(Tether, ARobotThatIsAboutToSleepIsKeptAwake) {
   const auto inputs = test::program_of("10 delay 32000\n15 delay 32000\n20 goto 10\n");
   TetherOptions options;
   options.robot = spec::Robot::Rvr;
-  options.budgets.battery = 24h; // nothing else is asked
+  options.budgets.battery = 24h; // no other request
   Options bounds;
   bounds.bound = 700s;
   const auto driven = run_tethered(inputs, bounds, heard, nullptr, *robot.link, options);

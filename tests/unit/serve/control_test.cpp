@@ -23,7 +23,7 @@ TEST(Control, IsAStimulusNowOrLater) {
 TEST(Control, IsForOneBallOrForAll) {
   EXPECT_EQ(read("3 state", 3).ball, 3);
   EXPECT_EQ(read("state", 3).ball, std::nullopt);
-  EXPECT_TRUE(std::holds_alternative<Control::State>(read("state").what));
+  EXPECT_TRUE(std::holds_alternative<Control::StateQuery>(read("state").what));
   EXPECT_TRUE(std::holds_alternative<Control::Reset>(read("1 reset").what));
 }
 

@@ -11,7 +11,7 @@
 namespace orb::serve {
 namespace {
 
-/// A page and somebody who speaks to it, byte by byte.
+/// A page server and a client that talks to it byte by byte.
 class PageServerTest : public testing::Test {
 protected:
   void SetUp() override {
@@ -29,7 +29,7 @@ protected:
     port = static_cast<std::uint16_t>(std::stoi(url.substr(place, slash - place)));
   }
 
-  /// What is answered to these bytes until the server closes; what it waits for is cut off.
+  /// Returns the answer to these bytes until the server closes the connection.
   std::string ask(std::string_view bytes) {
     asio::io_context context;
     asio::ip::tcp::socket socket(context);

@@ -21,7 +21,7 @@ namespace {
 namespace fs = std::filesystem;
 using namespace std::chrono_literals;
 
-/// One visitor at a time is let in; nobody answers.
+/// Admits one client at a time and never answers.
 struct Hall final : Door {
   bool admits() override { return !visited; }
   void enter(Link&) override { visited = true; }
@@ -30,7 +30,7 @@ struct Hall final : Door {
   std::string moved_to;
 };
 
-/// A folder of its own, removed at the end.
+/// A temporary folder, removed at the end.
 struct Folder {
   Folder() {
     std::string pattern = (fs::temp_directory_path() / "orb-pty.XXXXXX").string();
@@ -42,7 +42,7 @@ struct Folder {
   fs::path path;
 };
 
-/// Opens what an address such as `pty /dev/pts/4` leads to.
+/// Opens the target of an address such as `pty /dev/pts/4`.
 int open_at(const std::string& address) {
   return ::open(address.substr(4).c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK);
 }
@@ -56,7 +56,7 @@ protected:
   }
 
   int open_slave() const { return open_at(link.address()); }
-  /// Looks at the pty until somebody is let in.
+  /// Polls the pty until a client has entered.
   bool visited() {
     for (const auto end = std::chrono::steady_clock::now() + 5s;
          !hall.visited && std::chrono::steady_clock::now() < end;)
@@ -156,7 +156,7 @@ TEST_F(PtyLinkTest, IsRawAgainAfterAVisitThatSaidNothing) {
   ::close(fd);
 }
 
-/// Whether `body` returns true in a process of an ordinary user: root may do too much.
+/// Runs `body` in a process of an ordinary user, because root may do too much. Returns its result.
 bool as_ordinary_user(const std::function<bool()>& body) {
   constexpr uid_t nobody = 65534;
   const auto child = ::fork();
@@ -170,8 +170,8 @@ bool as_ordinary_user(const std::function<bool()>& body) {
   return WIFEXITED(status) && WEXITSTATUS(status) == 0;
 }
 
-/// Whether a second visit is let in after one that left TIOCEXCL behind. The first asks for the
-/// way again, because a ball may move.
+/// Returns true if a second client can enter after one that set TIOCEXCL. The address may change in
+/// between.
 bool lets_in_after_exclusive(const std::string& link_path) {
   asio::io_context io{1};
   const auto work = asio::make_work_guard(io);
@@ -206,7 +206,7 @@ TEST(PtyLinkOfAnOrdinaryUser, LetsTheNextOneInAfterAnExclusiveClient) {
   }));
 }
 
-/// Whether a visit is let in after one that said nothing and left TIOCEXCL behind.
+/// Returns true if a client can enter after a silent one that set TIOCEXCL.
 bool lets_in_after_silent_exclusive() {
   asio::io_context io{1};
   const auto work = asio::make_work_guard(io);
@@ -218,7 +218,7 @@ bool lets_in_after_silent_exclusive() {
   const int silent = open_at(link.address());
   if (silent < 0 || ::ioctl(silent, TIOCEXCL) != 0)
     return false;
-  ::close(silent); // before it has been looked at
+  ::close(silent); // before the poll has seen it
   for (int i = 0; i < 200; ++i) {
     const int second = open_at(link.address());
     while (second >= 0 && !hall.visited)
@@ -253,12 +253,12 @@ TEST_F(PtyLinkTest, ReplacesNothingButTheLinkOfABallThatWasKilled) {
   ASSERT_TRUE(second.open());
   EXPECT_FALSE(second.make_link(living));
   EXPECT_EQ(fs::read_symlink(living), slave);
-  const auto foreign = folder.path / "foreign"; // of a program that may come back
+  const auto foreign = folder.path / "foreign"; // belongs to a program that may come back
   fs::create_symlink("/dev/pts/2000000000", foreign);
   EXPECT_FALSE(second.make_link(foreign));
   EXPECT_EQ(fs::read_symlink(foreign), "/dev/pts/2000000000");
   const auto dead = folder.path / "dead";
-  fs::create_symlink("/dev/pts/./2000000000", dead); // as a ball writes it
+  fs::create_symlink("/dev/pts/./2000000000", dead); // in the spelling of a ball
   const auto made = second.make_link(dead);
   EXPECT_TRUE(made) << (made ? "" : made.error().message);
 }
@@ -270,10 +270,10 @@ TEST_F(PtyLinkTest, ReplacesALinkToAPtyThatCameAfterIt) {
   fs::create_symlink("/dev/pts/." / fs::path(slave.filename()), place);
   PtyLink second(io);
   ASSERT_TRUE(second.open());
-  EXPECT_FALSE(second.make_link(place)); // as of a ball that runs
+  EXPECT_FALSE(second.make_link(place)); // belongs to a running ball
   const std::array<timespec, 2> long_ago{};
   ASSERT_EQ(::utimensat(AT_FDCWD, place.c_str(), long_ago.data(), AT_SYMLINK_NOFOLLOW), 0);
-  EXPECT_TRUE(second.make_link(place)); // the number was given to somebody else
+  EXPECT_TRUE(second.make_link(place)); // the number was given to another program
 }
 
 TEST_F(PtyLinkTest, LeavesALinkThatSomebodyElseHasMade) {

@@ -1,5 +1,5 @@
-// Clients come and go on a pty as fast as they can: each finds a ball that answers it, and nobody
-// else. ORB_REOPENINGS says how many (tests/reliability/reopen takes more, on a busy machine).
+// Clients open and close a pty as fast as they can: each must reach a ball that answers it alone.
+// ORB_REOPENINGS sets how often (tests/reliability/reopen takes more, on a busy machine).
 
 #include "serve/server.h"
 
@@ -16,7 +16,7 @@
 namespace orb::serve {
 namespace {
 
-/// A ball on a pty, in a process of its own.
+/// A ball on a pty, in a separate process.
 class Served {
 public:
   Served() {
@@ -39,7 +39,7 @@ public:
     std::array<char, 64> line{};
     const auto size = ::read(ends[0], line.data(), line.size());
     ::close(ends[0]);
-    if (size > 5) // `pty /dev/pts/4` and a line end; nothing where no pty can be opened
+    if (size > 5) // `pty /dev/pts/4` and a line end; empty if no pty can be opened
       path = std::string(line.data() + 4, static_cast<std::size_t>(size) - 5);
   }
   ~Served() {
@@ -55,7 +55,7 @@ private:
   pid_t process_ = -1;
 };
 
-/// What comes back within ten seconds, up to `size` bytes.
+/// Reads up to `size` bytes within ten seconds.
 Bytes answer(int fd, std::size_t size) {
   Bytes bytes(size);
   std::size_t count = 0;

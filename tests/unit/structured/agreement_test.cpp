@@ -12,7 +12,7 @@
 namespace orb::structured {
 namespace {
 
-/// How many programs: ORB_PROGRAMS, which ./dev fuzz sets, or enough for a second or two.
+/// The number of programs: ORB_PROGRAMS, which ./dev fuzz sets, or enough for a second or two.
 std::uint64_t how_many() {
   const char* wanted = std::getenv("ORB_PROGRAMS");
   return wanted ? std::strtoull(wanted, nullptr, 10) : 2000;
@@ -35,7 +35,7 @@ std::string all_findings(const Compiled& compiled) {
   return text;
 }
 
-/// The rules that may be raised on the robot's lines: what the source says itself.
+/// True for findings about the robot's lines that come from the source, not from the compiler.
 bool may_remain(const Diagnostic& found) {
   namespace robot = compiler::rules;
   for (const auto* rule :
@@ -43,18 +43,18 @@ bool may_remain(const Diagnostic& found) {
         &robot::LargerThanOldRam, &robot::UnusedVariable, &robot::MissingGo,
         &robot::ProgramTooLarge, &robot::MissingDelay, &robot::DrivesOn, &robot::LoopLeavesRange,
         &robot::HeadingGrows, &robot::ReadPastData, &robot::ValueOutOfRange,
-        &robot::DivisionByZero, // of what only the optimiser found out
+        &robot::DivisionByZero, // found only by the optimiser
         &robot::IndexBeforeY})  // a loop whose first index is 0, as `Y` is then
     if (found.rule == rule)
       return true;
-  // What says that a program does something else than was meant; random ones mean nothing.
-  // An index that is wrong in one copy of a statement stops the program there, as it should.
+  // Findings about intentions, which random programs do not have. An index that is wrong in one
+  // copy of a statement stops the program there, as it should.
   return found.severity == Severity::Info || found.rule == &robot::IndexRange ||
          found.rule == &robot::MayLeaveRange || found.rule == &robot::ValueGrows ||
          (found.severity == Severity::Warning && found.rule->robot_error == 0);
 }
 
-/// Runs the robot's lines until they end, or for very long.
+/// Runs the robot's lines to their end, but not forever.
 void run(vm::Machine& machine, vm::NotebookHost& host, const std::string& text) {
   auto chunk = compiler::load(text);
   machine.start(std::move(chunk), 1, Instant{});
@@ -73,7 +73,7 @@ void compare_text(const std::string& text, std::uint64_t seed) {
                all_findings(compiled));
   for (const auto& found : compiled.program.diagnostics)
     if (found.severity == Severity::Error) {
-      // Constants that are wrong for certain, and programs that do not fit, are refused.
+      // Wrong constants and programs that do not fit are refused.
       ASSERT_NE(found.rule, &rules::MalformedLine);
       ASSERT_NE(found.rule, &rules::UnknownName);
     }
@@ -83,7 +83,7 @@ void compare_text(const std::string& text, std::uint64_t seed) {
   const auto checked = compiler::check(compiled.robot.text, target);
   for (const auto& found : checked.diagnostics) {
     if (is_error(found) && !keeps_from_building(found))
-      continue; // what stops the one for certain stops both
+      continue; // a certain fault stops both
     ASSERT_TRUE(may_remain(found)) << found.rule->id << ": " << in_english(found.message);
   }
 
@@ -103,11 +103,11 @@ void compare_text(const std::string& text, std::uint64_t seed) {
     ASSERT_TRUE(host.printed.substr(0, printed) == plain_host.printed.substr(0, printed));
     return;
   }
-  constexpr std::size_t shown = 400; // of what an endless loop printed
+  constexpr std::size_t shown = 400; // of the output of an endless loop
   ASSERT_EQ(host.printed.substr(0, shown), plain_host.printed.substr(0, shown));
   ASSERT_TRUE(host.printed == plain_host.printed);
   ASSERT_TRUE(host.notes == plain_host.notes);
-  const auto stop = machine.take_stop();
+  const auto stop = machine.take_termination();
   ASSERT_TRUE(stop.has_value());
   ASSERT_EQ(stop->error ? std::string(spec::info(*stop->error).text) : "end", plain.end);
   if (!stop->error)
@@ -142,8 +142,7 @@ TEST(Agreement, CompiledShortProgramsDoWhatTheTextSays) {
     compare(seed, Style::Short);
 }
 
-/// An index that is used is one of the array; of a variable that nobody reads any more after it
-/// nothing is known.
+/// A used index is known to be within the array, but not once its variable is dead.
 TEST(Agreement, IndicesThatAreReadNoMore) {
   for (const std::string body : {
            "array t[6]\ninput n, 5ms, 3\nn = t[n]\nsay(5)\nsay(n)\n",
@@ -154,7 +153,7 @@ TEST(Agreement, IndicesThatAreReadNoMore) {
     compare_text(body + "sub say(p)\n print p / 3, 4\nend sub\n", 1);
 }
 
-/// A `for` with the variable of an open loop takes the place of that loop on the robot.
+/// On the robot, a `for` with the variable of an open loop replaces that loop.
 TEST(Agreement, LoopsThatShareAVariable) {
   for (const std::string body : {
            "for i = 1 to 3\n square\nnext\n",
@@ -166,7 +165,7 @@ TEST(Agreement, LoopsThatShareAVariable) {
         body + "print i\nsub square\n for i = 1 to 4\n print \"side\", i\n next\nend sub\n", 1);
 }
 
-/// A call where nothing comes goes, and with the last one the sub.
+/// Unreachable calls are removed, and with the last one the sub.
 TEST(Agreement, CallsWhereNothingComes) {
   const std::string start = "input a, 5ms, 3\ninput b, 5ms, 1\n";
   const std::string end = "function f(p, q)\n return p + q\nend function\n";
@@ -179,8 +178,8 @@ TEST(Agreement, CallsWhereNothingComes) {
     compare_text(start + body + end, 1);
 }
 
-/// A call that has been made need not be made again, but where what it reads has changed: by the
-/// lines between, by the call itself, by what gives it something, on one of two ways.
+/// A repeated call is dropped unless its inputs have changed: in the lines between, in the call
+/// itself, in its arguments, or on one of two paths.
 TEST(Agreement, CallsThatUseUpWhatTheyAreGiven) {
   const std::string start = "function sum(p, q)\n"
                             "  local v\n"
@@ -216,8 +215,8 @@ TEST(Agreement, CallsThatUseUpWhatTheyAreGiven) {
     compare_text(start + body, 1);
 }
 
-/// What a test has found is known to the same test behind it, but where what is compared has
-/// changed between them, on one of two ways or by a call; and with its sides exchanged.
+/// The result of a test decides the same test later, also with its sides exchanged, unless an
+/// operand has changed between them, on one of two paths or in a call.
 TEST(Agreement, TestsThatHaveBeenMade) {
   const std::string start = "input a, 5ms, 7\ninput b, 5ms, 9\n";
   const std::string end = "print a, b\nsub later\n  a += 2\nend sub\n";
@@ -245,7 +244,7 @@ TEST(Agreement, ProgramsThatHaveFoundSomething) {
     compare(seed, Style::Short);
 }
 
-/// The variables that somebody looks at hold at the end what the text says, where it has one.
+/// Compares the kept variables at the end with those of the tree evaluator, if it has them.
 void compare_kept(std::uint64_t seed) {
   const auto text = testing::RandomStructured(seed).write();
   NoFiles files;
@@ -286,7 +285,7 @@ TEST(Agreement, KeptVariablesHoldTheirValuesWhereAProgramStops) {
   compare_kept(2652);
 }
 
-/// A statement whose index is said to be wrong never runs to its end.
+/// A statement with an index error never completes.
 TEST(Agreement, IndicesThatAreErrorsAreWrong) {
   std::size_t seen = 0;
   for (std::uint64_t seed = 1; seed <= how_many(); ++seed) {
@@ -319,7 +318,8 @@ TEST(Agreement, IndicesThatAreErrorsAreWrong) {
 }
 
 TEST(Agreement, MostRandomProgramsCompileAndRun) {
-  // Programs that are all refused would prove nothing. Which they are depends on the compiler.
+  // If all programs were refused, the test would prove nothing. The number depends on the C++
+  // compiler.
   for (const auto style : {Style::Any, Style::Habits, Style::Short}) {
     int compiled_ones = 0;
     int ended = 0;

@@ -25,7 +25,7 @@ Compiled compiled(std::string_view text, compiler::Target target = {}) {
   return compile("test.orb", "test.orb", text, target, files);
 }
 
-/// The robot's lines; the findings where there are errors.
+/// Returns the robot's lines, or the findings if there are errors.
 std::string lines(std::string_view text) {
   const auto result = compiled(text);
   if (!result.has_errors())
@@ -96,8 +96,8 @@ TEST(Lines, ALoopWhoseCounterIsNeededWhereItIsLeftIsNone) {
             "5 if I < 10 then goto 2\n6 print I\n");
 }
 
-/// A function that is too long to be written out, of an array `a` with four elements, and what
-/// follows.
+/// Returns a program with a function that is too long to be inlined and reads an array `a` of four
+/// elements.
 std::string with_peak(std::string_view program) {
   return "array a[4]\narray b[4]\nfunction peak(n)\n  local best\n  for i = 1 to n\n"
          "    best = max(best, a[i])\n  next i\n  return best\nend function\n" +
@@ -111,11 +111,11 @@ TEST(Lines, ACallWhoseResultIsThereIsNotMadeAgain) {
     return count_of(lines(with_peak(program)), "gosub");
   };
   EXPECT_EQ(calls("input x\nprint peak(x)\nprint yaw, peak(x)\na[2] = yaw\nprint peak(x)\n"), 2U);
-  // What is set is in another array, and both ways of a test keep the result.
+  // Only another array is written, and both paths of a test keep the result.
   EXPECT_EQ(calls("input x\nprint peak(x)\nb[2] = yaw\nif yaw > 3 then LEDC 1\nprint peak(x)\n"
                   "a[1] = 1\nprint peak(x), b[rnd(4)]\n"),
             2U);
-  // One way changes what it is given; what it has given is another's now.
+  // One path changes the argument; then another variable holds the result.
   EXPECT_EQ(calls("input x\nprint peak(x)\nif yaw > 3 then x = 2\nprint peak(x)\n"), 2U);
   EXPECT_EQ(calls("input x\nk = peak(x)\nk += peak(x - 1)\nprint k + peak(x)\n"), 3U);
 }
@@ -219,7 +219,7 @@ TEST(Lines, AWrongIndexIsMadeOneThatTheRobotRefuses) {
 }
 
 TEST(Lines, CopiesThatNeverDifferAreOneVariable) {
-  // What the function counts in is what it returns, and what is tested afterwards.
+  // The function's counter is also its result, and is tested afterwards.
   EXPECT_EQ(lines("function throws()\n  local n\n  repeat\n    n += 1\n"
                   "    if dshake then return 0\n  until rnd(6) = 6\n  return n\nend function\n"
                   "loop\n  print throws()\nend loop\n"),
@@ -242,7 +242,7 @@ TEST(Lines, WhatFollowsFromATestedValueIsComputed) {
   EXPECT_EQ(lines("loop\n  u = rnd(2) - 1\n  print u\n  if u = 1 then n += 5\n  print n\n"
                   "end loop\n"),
             "1 U = (rnd 2) - 1\n2 print U\n3 N = N + U * 5\n4 print N\n5 goto 1\n");
-  // A test that clears what it reads is still made where both ways do the same.
+  // A test that clears what it reads is kept even if both branches do the same.
   EXPECT_EQ(lines("data 1, 2\nif 8 <> 1 + dshake then read c else read c\nprint c\n"),
             "1 data 1,2\n2 if 1 + dshake = 8 then goto 3\n3 read C\n4 print C\n");
 }
@@ -252,7 +252,7 @@ TEST(Lines, ArmsOfTwoLinesShareTheirTest) {
                   "    LEDC 2\n    print \"high\"\n  end if\nend loop\n"),
             "1 input A\n2 if A < 5 then LEDC 1 else LEDC 2\n"
             "3 if A < 5 then print \"low\" else print \"high\"\n4 goto 1\n");
-  // What the first line sets is tested: the second cannot be tested for again.
+  // The first line changes the tested variable, so the test cannot be repeated for the second.
   EXPECT_EQ(lines("input a\nif a < 5 then\n  a = 9\n  print \"low\"\nelse\n  a = 3\n"
                   "  print \"high\"\nend if\nprint a\n"),
             "1 input A\n2 if A > 4 then goto 6\n3 A = 9\n4 print \"low\"\n5 goto 8\n6 A = 3\n"
@@ -299,12 +299,12 @@ TEST(Lines, ASensorIsReadTwiceInOneLine) {
   EXPECT_EQ(
       lines("repeat\n  t = max(abs(pitch), abs(roll))\n  LEDC t\nuntil t > 9\n"),
       "1 B = abs pitch\n2 if B < abs roll then B = abs roll\n3 LEDC B\n4 if B < 10 then goto 1\n");
-  // What is read later is read once.
+  // Values that are needed later are read once.
   EXPECT_EQ(lines("a = abs(pitch)\nb = abs(roll)\nif a < b then a = b\nprint a\nprint b\n"),
             "1 A = abs pitch\n2 B = abs roll\n3 if A < B then A = B\n4 print A\n5 print B\n");
 }
 
-// ---- variables that somebody looks at
+// ---- kept variables
 
 std::string lines_keeping(std::string_view text, const std::vector<std::string>& kept) {
   NoFiles files;
@@ -388,7 +388,7 @@ TEST(Limits, PrintsOf32And33Bytes) {
             "1 print \"1234567890123456789012345678\" yaw;\n2 print yaw\n");
 }
 
-/// A program in which `count` variables are in use at once.
+/// Returns a program with `count` variables in use at once.
 std::string many(int count, bool array) {
   std::string text = array ? "array list[3]\n" : "";
   for (int i = 0; i < count; ++i)
@@ -568,7 +568,7 @@ TEST(FilesOf, MacrosAreCalledByName) {
 // ---- any bytes
 
 void expect_quick(const std::string& text) {
-  const auto begin = std::clock(); // processor time: others may use the machine
+  const auto begin = std::clock(); // processor time, as the machine may be busy
   const auto result = compiled(text);
   const auto took = (std::clock() - begin) / CLOCKS_PER_SEC;
   EXPECT_LT(took, 5) << text.substr(0, 40);

@@ -2,7 +2,7 @@
 
 #include "random_structured.h"
 #include "structured/compile.h"
-#include "structured/text/words.h"
+#include "structured/text/structured_words.h"
 
 #include <gtest/gtest.h>
 
@@ -14,8 +14,8 @@ std::string robot_lines(std::string_view text) {
   return compile("test.orb", "test.orb", text, {}, files).robot.text;
 }
 
-/// The same program as a careless hand would leave it: blanks gone or doubled, another case, other
-/// indents and line ends. What stands in quotes stays.
+/// Returns the same program, carelessly formatted: blanks missing or doubled, other case,
+/// indentation and line ends. Quoted text stays.
 std::string carelessly(std::string_view text, std::uint64_t seed) {
   Random random{seed};
   std::string out;

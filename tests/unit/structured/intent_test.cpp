@@ -1,5 +1,5 @@
-// What the linter says of programs that run and are not meant so, and that it keeps silent about
-// those that are. The programs are in intent/, numbered and structured.
+// The linter reports programs that run but not as intended, and is silent about correct ones. The
+// programs are in intent/, numbered and structured.
 
 #include "base/rules.h"
 #include "compiler/check.h"
@@ -19,7 +19,7 @@ namespace {
 struct Sample {
   bool numbered = false;
   bool held_out = false;
-  std::string rule; ///< that is to speak
+  std::string rule; ///< expected to be found
   std::string text;
 };
 

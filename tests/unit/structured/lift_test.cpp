@@ -16,13 +16,13 @@
 namespace orb::structured {
 namespace {
 
-/// How many programs: ORB_PROGRAMS, which ./dev fuzz sets, or enough for a second or two.
+/// The number of programs: ORB_PROGRAMS, which ./dev fuzz sets, or enough for a second or two.
 std::uint64_t how_many(std::uint64_t usually) {
   const char* wanted = std::getenv("ORB_PROGRAMS");
   return wanted ? std::strtoull(wanted, nullptr, 10) : usually;
 }
 
-/// Writes down what a program prints and does, in order; what it prints in pieces is one entry.
+/// Records prints and actions of a program, in order; a print in pieces is one entry.
 class Trace final : public vm::Host {
 public:
   std::int32_t read(spec::Variable variable, Instant) override {
@@ -40,11 +40,11 @@ public:
   std::optional<spec::BasicError>
   perform(spec::Statement statement, std::span<const std::int32_t> arguments, Instant) override {
     std::string event{spec::info(statement).word};
-    const bool sleeps = statement == spec::Statement::Sleep; // the line it wakes into has moved
+    const bool sleeps = statement == spec::Statement::Sleep; // the line numbers differ
     for (const auto argument : arguments.first(sleeps ? 2 : arguments.size()))
       event += " " + std::to_string(argument);
     if (statement == spec::Statement::Goroll && arguments.size() == 2)
-      event += arguments[1] > 0 ? " 1" : " 0"; // what the third is then
+      event += arguments[1] > 0 ? " 1" : " 0"; // the default of the third
     if (sleeps)
       end = "sleep";
     add(std::move(event));
@@ -74,8 +74,8 @@ private:
   bool printing_ = false;
 };
 
-/// Runs a numbered program from its first line for at most so many lines. Lines take no time to
-/// speak of, so that programs with fewer or more of them read the same timers.
+/// Runs a numbered program from its first line for a limited number of lines. Lines take almost no
+/// time, so that programs of different length read the same timers.
 Trace run(std::string_view text, std::uint64_t most_lines) {
   constexpr std::uint32_t lines_per_second = 1'000'000'000;
   Trace trace;
@@ -86,7 +86,7 @@ Trace run(std::string_view text, std::uint64_t most_lines) {
   while (machine.running() && machine.next_event() != never && machine.lines() < most_lines &&
          trace.end == "running")
     machine.run(std::max(machine.next_event(), machine.now()) + 10us, trace);
-  if (const auto stop = machine.take_stop(); stop && trace.end == "running")
+  if (const auto stop = machine.take_termination(); stop && trace.end == "running")
     trace.end = stop->error ? spec::info(*stop->error).text : "end";
   return trace;
 }
@@ -112,18 +112,18 @@ void expect_same(const Trace& numbered, const Trace& lifted) {
     return;
   }
   const auto both = std::min(numbered.events.size(), lifted.events.size());
-  for (std::size_t i = 0; i + 1 < both; ++i) // the last print may go on
+  for (std::size_t i = 0; i + 1 < both; ++i) // the last print may be incomplete
     ASSERT_EQ(numbered.events[i], lifted.events[i]);
 }
 
-/// The errors that keep a program from being lifted.
+/// Returns the errors that prevent lifting a program.
 std::vector<Diagnostic> errors_of(std::string_view text) {
   auto errors = lift(compiler::check(text, {})).findings;
   std::erase_if(errors, [](const Diagnostic& found) { return !is_error(found); });
   return errors;
 }
 
-/// Lifts a program without errors, compiles what came out and compares what both do.
+/// Lifts a program without errors, compiles the result and compares the effects of both.
 void compare(std::string_view text) {
   const auto checked = compiler::check(text, {});
   const auto lifted = lift(checked);
@@ -137,8 +137,8 @@ void compare(std::string_view text) {
     expect_same(numbered, run(compiled.robot.text, 16000));
 }
 
-/// A random program in which each line that keeps it from being lifted prints its number instead,
-/// or ends the program where it does so already.
+/// Returns a random program in which each line that prevents lifting prints its number instead, or,
+/// if it already does, ends the program.
 std::string liftable(std::uint64_t seed) {
   testing::RandomProgram::Style style;
   style.lines = 4 + static_cast<int>(seed % 14);
@@ -190,7 +190,7 @@ TEST(Lift, CompiledProgramsDoTheSame) {
   RecordProperty("lifted", std::to_string(lifted));
 }
 
-/// A robot's loop runs once where its end is before its start, whatever leads to it.
+/// A robot's loop runs once if its end is before its start, on every path to it.
 TEST(Lift, ALoopThatOneWayBringsPastItsEndRunsOnce) {
   for (const std::string test : {"speed < 200", "speed > 200"})
     compare("10 C = 4\n20 if " + test +

@@ -1,5 +1,5 @@
-// What is offered for a line that is wrong keeps what was written: words planted in lines with one
-// slip each must be in every line that is offered for it.
+// Offered lines keep what was written: words planted into a line with one slip must be in every
+// line that is offered for it.
 
 #include "base/random.h"
 #include "compiler/check.h"
@@ -16,7 +16,7 @@
 namespace orb::structured {
 namespace {
 
-/// A statement with values planted in it, and these.
+/// A statement with planted values, and the values.
 struct Planted {
   std::string text;
   std::vector<std::string> words;
@@ -80,7 +80,7 @@ private:
   std::vector<std::string> words_;
 };
 
-/// One slip, as beginners make it; the line as it is where it cannot be made there.
+/// Makes one slip, as beginners do; leaves the line unchanged if it does not apply.
 std::string slip(std::string line, std::size_t kind) {
   const auto replace = [&](std::string_view from, std::string_view to) {
     if (const auto at = line.find(from); at != std::string::npos)
@@ -105,7 +105,7 @@ std::string slip(std::string line, std::size_t kind) {
 }
 constexpr std::size_t slips = 13;
 
-/// The lines that a finding offers.
+/// Returns the lines that a finding offers.
 std::vector<std::string> offered(const Diagnostic& finding) {
   std::vector<std::string> lines;
   const auto said = in_english(finding.help);
@@ -129,7 +129,7 @@ std::size_t times(std::string_view text, std::string_view word) {
   return n;
 }
 
-/// What a line loses of the words that were planted; empty where nothing.
+/// Returns a planted word that the line has lost; empty if there is none.
 std::string lost(const Planted& planted, const std::string& line) {
   for (const auto& word : planted.words)
     if (times(line, word) <

@@ -9,11 +9,11 @@
 
 namespace orb::testing {
 
-/// Writes structured programs at random, the same for the same seed: all statements and blocks,
-/// calls with side effects inside expressions, values at the edge of what is allowed. Most end.
-/// With habits, half of it is what people often write: counting by hand, flags, chains of equal
-/// tests, two values exchanged, functions that answer yes or no. Short ones are few such lines
-/// about values that nobody knows when compiling: nothing else keeps alive what is wrongly dropped.
+/// Writes random structured programs, the same for the same seed: all statements and blocks, calls
+/// with side effects inside expressions, values at the limits of their ranges. Most end. With
+/// habits, half of each consists of common patterns: counting by hand, flags, chains of equal
+/// tests, exchanged values, predicates. Short programs are a few such lines on values unknown at
+/// compile time: nothing else keeps alive what a pass drops wrongly.
 class RandomStructured {
 public:
   enum class Style { Any, Habits, Short };
@@ -35,7 +35,7 @@ public:
         out_ += "input " + std::string(name) + ", 5ms, " + number() + "\n";
       else
         out_ += std::string(name) + " = " + number() + "\n";
-    // Values that nobody knows when compiling need letters of their own: about all there are.
+    // Values unknown at compile time need letters: use almost all of them.
     for (int n = 0; n < crowd_; ++n)
       out_ += "input c" + std::to_string(n) + ", 5ms, " + number() + "\n";
     block(1, is_short ? 1 + upto(3) : 3 + upto(5));
@@ -141,7 +141,7 @@ private:
     return "list" + std::to_string(array) + "[" + index + "]";
   }
 
-  /// An operand in more parentheses than the robot follows.
+  /// Returns an operand in more parentheses than the robot follows.
   std::string nest() {
     auto text = variable();
     for (int levels = 3 + upto(6); levels > 0; --levels) {
@@ -168,7 +168,7 @@ private:
     return text;
   }
 
-  /// An expression that is mostly within 0 to 255.
+  /// Returns an expression that is mostly within 0 to 255.
   std::string small() {
     const int kind = upto(4);
     if (kind == 0)
@@ -178,7 +178,7 @@ private:
     return chance(0.95) ? std::to_string(upto(256)) : number();
   }
 
-  /// Two tests of the same value, or of the greater or smaller of two.
+  /// Returns two tests of the same value, or of the maximum or minimum of two.
   std::string pair() {
     static const std::vector<std::string> signs = {"=", "<>", "<", ">", "<=", ">="};
     static const std::vector<std::string> sensors = {"speed", "yaw", "xpos", "accelX"};
@@ -263,7 +263,7 @@ private:
 
   std::string counter() { return own("i"); }
 
-  /// A name for a loop of its own, or, where all is short, one that everybody has.
+  /// Returns a unique name for the loop, or, in short programs, a common one.
   std::string own(const std::string& begin) {
     if (style_ == Style::Short && chance(0.4))
       return names[upto(2)];
@@ -330,7 +330,7 @@ private:
     --loops_;
   }
 
-  /// Loops inside each other, more than the robot keeps.
+  /// Writes nested loops, more than the robot can keep open.
   void tower(int depth) {
     if (tower_ || !chance(0.4))
       return line(depth, simple());
@@ -356,14 +356,14 @@ private:
     tower_ = false;
   }
 
-  /// What leaves a loop or its round.
+  /// Returns a statement that leaves a loop or an iteration.
   std::string leaving() {
     if (routine_ > 0 && chance(0.3))
       return is_function(routine_) ? "return " + expression(1) : "return";
     return chance(0.5) ? "exit" : "continue";
   }
 
-  /// Labels: a jump back that is taken a few times, a jump out of a block.
+  /// Writes labels: a backward jump that is taken a few times, a jump out of a block.
   void jumps(int depth) {
     const auto name = "l" + std::to_string(labels_++);
     if (chance(0.5)) {
@@ -411,7 +411,7 @@ private:
       line(depth, "print \"after \" " + name);
   }
 
-  /// `while` and `repeat … until` that count.
+  /// Writes a `while` or `repeat … until` that counts.
   void bounded_loop(int depth) {
     const auto name = own("w");
     line(depth, name + " = " + std::to_string(upto(4)));
@@ -454,7 +454,7 @@ private:
 
   // ---- habits
 
-  /// A function that answers yes or no.
+  /// Writes a predicate.
   void answer() {
     if (chance(0.4)) {
       line(1, "for k" + std::to_string(routine_) + " = 2 to " + variable() + " % 6");
@@ -476,7 +476,7 @@ private:
     out_ += "end function\n";
   }
 
-  /// A function that works on what it is given.
+  /// Writes a function that changes its parameters.
   void use_up() {
     line(1, "p = abs(p) % " + std::to_string(2 + upto(300)));
     if (chance(0.3))
@@ -593,7 +593,7 @@ private:
     line(depth, "end if");
   }
 
-  /// Two ways that begin and end with the same.
+  /// Writes two branches that begin and end with the same lines.
   void alike(int depth) {
     const auto head = simple();
     const auto tail = simple();
@@ -622,7 +622,7 @@ private:
     line(depth, "end if");
   }
 
-  /// The answer of a function, tested.
+  /// Writes a test of a function's result.
   void ask(int depth) {
     const int callee = subs_ + 1 + upto(std::max(functions_, 1));
     if (functions_ == 0 || callee <= routine_)
@@ -641,7 +641,7 @@ private:
     line(depth, "end if");
   }
 
-  /// The same call twice.
+  /// Writes the same call twice.
   void ask_again(int depth) {
     const int callee = subs_ + 1 + upto(std::max(functions_, 1));
     if (functions_ == 0 || callee <= routine_)
@@ -654,7 +654,7 @@ private:
       call += ")";
     }
     if (chance(0.3))
-      line(depth, "input " + variable() + ", 5ms, " + number()); // nobody knows it when compiling
+      line(depth, "input " + variable() + ", 5ms, " + number()); // unknown at compile time
     line(depth, variable() + " = " + call);
     if (chance(0.5))
       line(depth, simple());
@@ -663,7 +663,7 @@ private:
     line(depth, "print " + call + (chance(0.3) ? " - " + call : ""));
   }
 
-  /// Something may come, up to a time, and is told from nothing.
+  /// Writes a loop that waits for a condition for a limited time, and a test of the outcome.
   void wait_for(int depth) {
     const auto found = "q" + std::to_string(loops_) + "_" + std::to_string(routine_);
     const auto down = chance(0.3);
@@ -708,7 +708,7 @@ private:
     line(depth, "end repeat");
   }
 
-  /// Two values compared one way after the other.
+  /// Writes several comparisons of the same two values.
   void order(int depth) {
     const auto a = variable();
     const auto b = variable();
@@ -723,7 +723,7 @@ private:
     line(depth, "end if");
   }
 
-  /// What an element says is where the next one is.
+  /// Writes reads of a linked list: an element is the index of the next.
   void follow_list(int depth) {
     if (arrays_ == 0)
       return order(depth);
@@ -742,7 +742,7 @@ private:
     line(depth, "print " + (chance(0.5) ? name : expression(1)));
   }
 
-  /// Two values compared again while it is known how they compare, and a call in between.
+  /// Writes repeated comparisons whose result is known, with a call in between.
   void ask_between(int depth) {
     static const std::vector<std::string> signs = {" = ", " <> ", " < ", " > ", " <= ", " >= "};
     const auto a = variable();
@@ -786,9 +786,9 @@ private:
   int routine_ = 0; ///< 0 in the main program
   int loops_ = 0;
   int labels_ = 0;
-  int crowd_ = 0;                   ///< variables beside the named ones
-  bool tower_ = false;              ///< inside of loops that are already many
-  std::vector<std::string> towers_; ///< the ends of its loops
+  int crowd_ = 0;                   ///< variables in addition to the named ones
+  bool tower_ = false;              ///< inside deeply nested loops
+  std::vector<std::string> towers_; ///< the ends of those loops
 };
 
 } // namespace orb::testing

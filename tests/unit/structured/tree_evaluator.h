@@ -1,9 +1,9 @@
 #pragma once
 
 #include "structured/meaning/symbols.h"
-#include "structured/text/blocks.h"
+#include "structured/text/link_blocks.h"
 #include "structured/text/program.h"
-#include "structured/text/words.h"
+#include "structured/text/structured_words.h"
 #include "tests/unit/vm/basic_run.h"
 
 #include <array>
@@ -14,8 +14,8 @@
 
 namespace orb::structured {
 
-/// Structured orbBasic as plainly as it can be said: it walks the statements and the trees of their
-/// expressions and keeps the values by name. Slow on purpose; compiled programs must agree with it.
+/// The simplest evaluator of structured orbBasic: walks the statements and their expression trees
+/// and keeps values by name. Deliberately slow; compiled programs must agree with it.
 class TreeEvaluator {
 public:
   TreeEvaluator(const Program& program, const Names& names, vm::NotebookHost& host,
@@ -28,7 +28,7 @@ public:
     random_ = mix(seeds_);
   }
 
-  /// Runs the main program, at most so many statements.
+  /// Runs the main program, at most `most` statements.
   void run(std::uint64_t most) {
     most_ = most;
     try {
@@ -45,12 +45,12 @@ public:
     }
   }
 
-  /// What a variable of the whole program holds.
+  /// Returns the value of a global variable.
   std::int32_t value_of(std::uint32_t symbol) const { return values_[symbol]; }
 
-  std::vector<bool> done;      ///< of each statement without a block: it has run to its end
+  std::vector<bool> done;      ///< of each statement without a block: it has completed
   std::string end;             ///< `end`, the robot's error, or `running`
-  std::uint32_t statement = 0; ///< the last one that was begun
+  std::uint32_t statement = 0; ///< the last one started
   std::uint64_t steps = 0;
 
 private:
@@ -74,7 +74,7 @@ private:
 
   // ---- expressions
 
-  /// The operands of a node from left to right.
+  /// Returns the operands of a node from left to right.
   std::vector<std::uint32_t> operands(std::uint32_t n) const {
     std::vector<std::uint32_t> list;
     for (auto last = n; last > program_.nodes[n].first;) {
@@ -224,7 +224,7 @@ private:
     return Way::On;
   }
 
-  /// Executes a statement, a block with all that is in it, and steps over it.
+  /// Executes a statement or a whole block and moves past it.
   Way execute(std::uint32_t& i) {
     const auto node = at(i);
     const auto here = i;
@@ -270,7 +270,8 @@ private:
     return Way::On;
   }
 
-  /// The label that a `goto` names: in its own routine, and never in a block that it is not in.
+  /// Finds the label of a `goto`: in its routine, and not inside a block that does not contain the
+  /// `goto`.
   std::uint32_t label(std::uint32_t jump) const {
     for (std::uint32_t i = 0; i < program_.statements.size(); ++i)
       if (at(i).kind == Kind::Label && at(i).name == at(jump).name &&

@@ -1,6 +1,5 @@
-// JUnit XML as CI servers read it. The two schemas that are published (of Ant's reports, and of
-// Jenkins' junit plugin) ask, in our words, for what is checked here; what both allow, we need not
-// test.
+// JUnit XML as CI servers read it. These checks restate the two published schemas (Ant's reports,
+// Jenkins' junit plugin) in our words.
 
 #include "base/text/utf8.h"
 #include "testing/verdicts/render.h"
@@ -51,10 +50,10 @@ Results results() {
 struct Attribute {
   std::string_view element;
   std::string_view name;
-  std::string_view type; ///< an ECMAScript pattern for the whole value
+  std::string_view type; ///< an ECMAScript pattern of the whole value
 };
 
-// Every attribute that an element must have; it has no others.
+// The attributes of an element: all are required, no others allowed.
 constexpr std::string_view whole = "[0-9]+";
 constexpr std::string_view decimal = "[0-9]+\\.[0-9]+";
 constexpr std::string_view anything = "[^]*";
@@ -63,7 +62,7 @@ constexpr auto attributes = std::to_array<Attribute>({
     {"testsuite", "name", something},
     {"testsuite", "package", something},
     {"testsuite", "id", whole},
-    // A date and a time without a zone.
+    // A date and time without a time zone.
     {"testsuite", "timestamp", "[0-9]{4}-[0-9]{2}-[0-9]{2}T[0-9]{2}:[0-9]{2}:[0-9]{2}"},
     {"testsuite", "hostname", something},
     {"testsuite", "tests", whole},
@@ -101,7 +100,7 @@ std::string names(const pugi::xml_node& node) {
   return out;
 }
 
-/// A suite holds its properties, its cases, and what was printed, in this order.
+/// A suite has properties, cases and output, in this order.
 void check_suite(const pugi::xml_node& suite, int number) {
   check_attributes(suite);
   EXPECT_EQ(suite.attribute("id").as_int(-1), number);
@@ -112,7 +111,7 @@ void check_suite(const pugi::xml_node& suite, int number) {
   int errors = 0;
   for (const auto& one : suite.children("testcase")) {
     check_attributes(one);
-    // At most one of: why it failed, why it could not be run.
+    // At most one of failure and error.
     EXPECT_TRUE(std::regex_match(names(one), std::regex("(failure |error )?"))) << names(one);
     for (const auto& child : one.children()) {
       check_attributes(child);

@@ -1,5 +1,5 @@
-// One mutant for each word of the vocabulary: a program that meets the expectation, and one that
-// fails it just so. Each must be told apart, and what was seen instead must be named.
+// Two programs for each word of the vocabulary: one that meets the expectation, and a mutant that
+// just fails it. The judge must tell them apart and name what was seen instead.
 
 #include "base/text/text.h"
 #include "testing/run_suite.h"
@@ -29,7 +29,7 @@ struct Mutant {
   std::string_view expectation; ///< the lines of the test
   std::string_view good;
   std::string_view bad;
-  std::string_view seen; ///< what is said of the bad one
+  std::string_view seen; ///< the message about the bad one
 };
 
 constexpr std::string_view drive =

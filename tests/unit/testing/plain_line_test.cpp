@@ -26,7 +26,7 @@ TEST(PlainLine, DoesWhatItsExamplesSay) {
 }
 
 std::string form_of(std::string_view line) {
-  Elsewhere elsewhere;
+  SurroundingText elsewhere;
   elsewhere.has_course = elsewhere.may_have_zones = true;
   const auto all = documented_forms(repair::tokens_of(line, Language::Test), elsewhere);
   return all.empty() ? std::string() : all.front().text;

@@ -9,8 +9,8 @@ using orb::protocol::LinkError;
 
 namespace {
 
-/// A stream of which nothing ever comes to its end, even when it is cancelled: what a driver does
-/// that does not let go.
+/// A stream whose operations never end, even when cancelled: models a driver that does not release
+/// them.
 class Deaf {
 public:
   using executor_type = asio::io_context::executor_type;
@@ -37,7 +37,7 @@ std::unique_ptr<orb::protocol::Transport> deaf() {
 
 } // namespace
 
-// Nobody waits for ever, neither for an answer nor for the end of the program.
+// No wait is endless, neither for an answer nor at the end of the program.
 TEST(AsioTransport, AnOperationThatCannotBeCancelledBreaksTheLink) {
   const auto link = deaf();
   const auto answer = link->read(link->now());
@@ -46,7 +46,7 @@ TEST(AsioTransport, AnOperationThatCannotBeCancelledBreaksTheLink) {
   const auto begin = link->now();
   EXPECT_FALSE(link->read(begin + std::chrono::minutes(1)));
   EXPECT_FALSE(link->write(orb::Bytes{1}));
-  EXPECT_LT(link->now() - begin, cancel_time); // it is known by now
+  EXPECT_LT(link->now() - begin, cancel_time); // the link is already known to be broken
 }
 
 TEST(AsioTransport, AWriteThatCannotBeCancelledBreaksTheLink) {

@@ -17,10 +17,10 @@ using protocol::BleStep;
 
 constexpr auto interval = Duration(30ms);
 
-/// A ball behind a GATT, and what was told of the steps to it.
+/// A ball behind a GATT, and the steps reported.
 struct Robot {
   explicit Robot(
-      const BleFaultPlan& plan = {}, const Stop& stop = [] { return 0; },
+      const BleFaultPlan& plan = {}, const StopRequests& stop = [] { return 0; },
       const std::string& name = "SK-0001") {
     vm::BallOptions options;
     options.loader = compiler::load;
@@ -74,7 +74,7 @@ TEST(Ble, NoPieceIsLongerThanARobotTakes) {
   Session session(*robot.link, ble_budgets({}), 0);
   const auto answer = session.exchange(
       spec::ApiCommand::AppendOrbbasicFragment,
-      Bytes(200, 'x')); // of which the first byte is an area that there is not: it is answered
+      Bytes(200, 'x')); // the first byte is an invalid area, which still gets an answer
   EXPECT_TRUE(answer.has_value());
   EXPECT_EQ(robot.gatt->longest_piece, spec::ble_piece_bytes);
 }

@@ -23,7 +23,7 @@
 namespace orb::uploader {
 namespace {
 
-/// A file descriptor that is closed at the end.
+/// Closes a file descriptor at the end of the scope.
 struct Handle {
   explicit Handle(int opened) : fd(opened) {}
   Handle(const Handle&) = delete;
@@ -36,7 +36,7 @@ struct Handle {
   int fd;
 };
 
-/// The master of a pseudo-terminal, and the path that a client opens.
+/// The master of a pseudo-terminal, and the path for a client.
 struct Pty {
   Pty() : master(::posix_openpt(O_RDWR | O_NOCTTY)) {
     if (::grantpt(master.fd) == 0 && ::unlockpt(master.fd) == 0)
@@ -46,7 +46,7 @@ struct Pty {
   std::string path;
 };
 
-/// Tests of ptys, where there are any.
+/// Tests of ptys, skipped where there are none.
 class PtyTest : public testing::Test {
 protected:
   void SetUp() override {
@@ -189,7 +189,7 @@ TEST_F(PtyTest, RefusesAPortInUse) {
   EXPECT_NE(open_error(pty.path).find("another program has it open"), std::string::npos);
 }
 
-/// Root is let in where others are not.
+/// Root can open what others cannot.
 TEST_F(PtyTest, LetsAnOrdinaryUserInAgain) {
   constexpr uid_t nobody = 65534;
   const auto child = ::fork();
@@ -208,7 +208,7 @@ TEST_F(PtyTest, LetsAnOrdinaryUserInAgain) {
   EXPECT_EQ(status, 0);
 }
 
-/// A port of this machine where somebody listens.
+/// A listening port of this machine.
 struct Listener {
   explicit Listener(int queue) : socket(::socket(AF_INET, SOCK_STREAM, 0)) {
     address.sin_family = AF_INET;
@@ -243,7 +243,8 @@ TEST(Open, ConnectsOverTcp) {
 
 TEST(Open, StopsConnectingWhenAsked) {
   const Listener listener(0);
-  const Handle first(::socket(AF_INET, SOCK_STREAM, 0)); // fills the queue: whoever follows waits
+  // Fills the queue: the next client has to wait.
+  const Handle first(::socket(AF_INET, SOCK_STREAM, 0));
   ASSERT_EQ(::connect(first.fd, reinterpret_cast<const sockaddr*>(&listener.address),
                       sizeof(listener.address)),
             0);
@@ -260,7 +261,7 @@ TEST(Open, DoesNotWaitForANameOnceStopped) {
   EXPECT_EQ(link.error().kind, protocol::LinkError::Kind::Interrupted);
 }
 
-/// Short enough for a test in real time.
+/// Budgets short enough for a test in real time.
 Budgets hurried() {
   Budgets budgets;
   budgets.answer = 20ms;
@@ -270,7 +271,7 @@ Budgets hurried() {
   return budgets;
 }
 
-/// Greets what a talker on the master of a pty plays, which gets what the client sent.
+/// Greets the `talker` on the master of a pty, which receives what the client sent.
 Report greet_talker(const std::function<Bytes(ByteView)>& talker) {
   Pty pty;
   auto link = open(endpoint_of(pty.path), hurried(), on_and_on);

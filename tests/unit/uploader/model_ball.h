@@ -12,11 +12,11 @@
 
 namespace orb::uploader {
 
-/// The least that an upload needs of a ball, with knobs for misbehaviour, and a link that takes
-/// `latency` each way. Time is virtual.
+/// A minimal ball for uploads, with options to misbehave, and a link that takes `latency` each way.
+/// Time is virtual.
 class ModelBall : public protocol::Transport {
 public:
-  /// What to do with the `n`th command (from 1) instead of obeying it; nothing for obeying.
+  /// Returns the reaction to the `n`th command (from 1) instead of obeying it; nullopt to obey.
   using Mischief = std::function<std::optional<Bytes>(int n, const protocol::Command&)>;
 
   std::array<std::string, 2> areas{"old\n", "old flash\n"};
@@ -69,7 +69,7 @@ public:
     return std::exchange(out_, {});
   }
 
-  /// Bytes that the client finds without having asked.
+  /// Sends unsolicited bytes to the client.
   void send(ByteView bytes) { out_.insert(out_.end(), bytes.begin(), bytes.end()); }
   std::optional<protocol::LinkError> broken;
 
@@ -134,9 +134,9 @@ public:
   }
 
   std::uint8_t running = 0;
-  int stream_refusals = 0; ///< how often the next pieces of a stream find no room
+  int stream_refusals = 0; ///< how often the next pieces of a stream are refused for lack of room
 
-  /// Level 2 Diagnostics; a ball of which nothing is known may refuse it, or count otherwise.
+  /// Level 2 Diagnostics; some balls may refuse it, or count differently.
   bool has_diagnostics = true;
   std::uint32_t counts_per_packet = 1;
   std::uint32_t good = 0;

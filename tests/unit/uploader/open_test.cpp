@@ -1,4 +1,4 @@
-// A link that takes no bytes: what a transcript cannot show in time.
+// A link that takes no bytes, which a transcript cannot show in time.
 
 #include "uploader/endpoint.h"
 
@@ -10,7 +10,7 @@
 namespace orb::uploader {
 namespace {
 
-/// The master of a pty, from which nobody reads.
+/// The master of a pty that nobody reads.
 class SilentPty {
 public:
   SilentPty() : master_(::posix_openpt(O_RDWR | O_NOCTTY)) {
@@ -40,7 +40,7 @@ TEST(Open, AWriteThatCannotGoOnEndsWhenAskedTo) {
   const auto written = (*link)->write(more_than_fits);
   ASSERT_FALSE(written.has_value());
   EXPECT_EQ(written.error().kind, protocol::LinkError::Kind::Interrupted);
-  // Half a packet is on its way: cleaning up would only wait again.
+  // Half a packet has been sent: cleaning up would only wait again.
   const auto again = (*link)->write(Bytes{1});
   ASSERT_FALSE(again.has_value());
   EXPECT_EQ(again.error().kind, protocol::LinkError::Kind::Broken);

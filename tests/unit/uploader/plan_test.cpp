@@ -8,7 +8,7 @@
 namespace orb::uploader {
 namespace {
 
-/// Whether a ball takes a packet of these bytes for a whole one.
+/// Returns true if a ball accepts these bytes as a whole packet.
 bool is_taken(ByteView bytes) {
   protocol::Decoder decoder(protocol::Direction::ToBall);
   decoder.feed(bytes);

@@ -8,7 +8,7 @@ namespace {
 using spec::ApiCommand;
 using Kind = Report::Kind;
 
-/// An upload of the 60-line program over a transport, from the greeting on.
+/// Uploads the 60-line program over a transport, including the greeting.
 Report upload_program(protocol::Transport& link, const ProgramJob& job, std::uint8_t first_seq = 0,
                       BatteryPolicy battery = BatteryPolicy::Refuse) {
   Session session(link, Budgets{}, first_seq);
@@ -32,7 +32,7 @@ bool is(const protocol::Command& command, ApiCommand which) {
   return spec::api_command(command.did, command.cid) == which;
 }
 
-/// Does something to the n-th command of a kind only.
+/// Drops only the n-th command of a kind; `extra` runs before.
 ModelBall::Mischief at(ApiCommand which, int number, const std::function<void()>& extra = {}) {
   auto seen = std::make_shared<int>(0);
   return [=](int, const protocol::Command& command) -> std::optional<Bytes> {
@@ -138,14 +138,15 @@ TEST(Upload, StartsOverAfterALostAnswer) {
 }
 
 TEST(Upload, StartsOverAfterASecondAnswer) {
-  for (const int which : {1, 5}) { // the first fragment, and the last, which only the ping shows
+  // The first fragment, and the last, whose duplicate only the ping reveals.
+  for (const int which : {1, 5}) {
     ModelBall ball;
     int seen = 0;
     ball.mischief = [&](int, const protocol::Command& command) -> std::optional<Bytes> {
       if (!is(command, ApiCommand::AppendOrbbasicFragment) || ++seen != which)
         return std::nullopt;
       ball.carry_out(command);
-      ball.carry_out(command); // the link doubled the request
+      ball.carry_out(command); // the link has doubled the request
       return Bytes{};
     };
     EXPECT_EQ(upload_program(ball, {sixty_lines(), Area::Ram, {}}).kind, Kind::Done);
@@ -320,7 +321,7 @@ TEST(Upload, RefusesAllOfADeliveryBeforeAnyOfItIsSent) {
   EXPECT_FALSE(changed_by({sixty_lines(), Area::Ram, {}}, 2, false));
 }
 
-/// What a program says, and how long await_start() then waits.
+/// Sends what a program prints. Returns how long await_start() waits.
 Duration start_after(const std::vector<spec::AsyncId>& said, Duration latency) {
   ModelBall ball;
   ball.latency = latency;
@@ -484,7 +485,7 @@ TEST(UnseenBound, IsNothingWhereNothingIsDoubledOrNothingIsLost) {
 }
 
 TEST(UnseenBound, GrowsWithThePieces) {
-  // Of pieces that look right, 0.01 · 2 · 0.01 · 0.99 of 0.99 + 0.01 · 2 · 0.01 arrived twice.
+  // Of pieces that look right, 0.01 · 2 · 0.01 · 0.99 out of 0.99 + 0.01 · 2 · 0.01 arrived twice.
   EXPECT_NEAR(unseen_bound(1, 0.01, 0.01), 0.000198 / (0.9902 + 0.000198), 1e-9);
   EXPECT_NEAR(unseen_bound(5, 0.01, 0.01), 0.000999, 1e-6);
 }

@@ -18,7 +18,7 @@ constexpr std::uint32_t speed = 3000;
 
 constexpr std::uint64_t enough_for_a_second = 2000;
 
-/// How many programs: ORB_PROGRAMS, which ./dev fuzz sets, or enough for a second.
+/// The number of programs: ORB_PROGRAMS, which ./dev fuzz sets, or enough for a second.
 std::uint64_t how_many() {
   const char* wanted = std::getenv("ORB_PROGRAMS");
   return wanted ? std::strtoull(wanted, nullptr, 10) : enough_for_a_second;
@@ -30,11 +30,11 @@ void prepare(NotebookHost& host) {
   host.values[spec::Variable::Cmdroll] = 1;
 }
 
-/// Runs as many lines as the evaluator may, in pieces whose lengths change all the time.
+/// Runs as many lines as the evaluator may, in pieces of varying length.
 void run_machine(Machine& machine, NotebookHost& host, std::uint64_t seed) {
   Instant limit{};
   for (std::uint64_t piece = seed; machine.running() && machine.lines() < most_lines; ++piece) {
-    // Never beyond the last line that counts: lines end on a grid while nothing waits.
+    // Never beyond the last line that counts: lines end on a grid unless one waits.
     limit = std::max(limit, std::min(machine.next_event(), never - 1h)) +
             Duration{1 + static_cast<std::int64_t>(piece % 5) * 400'000};
     const auto left = static_cast<std::int64_t>(most_lines - machine.lines());
@@ -46,7 +46,7 @@ void run_machine(Machine& machine, NotebookHost& host, std::uint64_t seed) {
       return;
     machine.run(limit, host);
   }
-  // The evaluator's last line ends with its wait.
+  // The evaluator's last line includes its wait.
   if (machine.waits_for_input() && machine.next_event() != never)
     machine.run(machine.next_event() + Duration{1}, host);
 }
@@ -57,7 +57,7 @@ std::string write_program(std::uint64_t seed) {
   return testing::RandomProgram(seed, {.lines = 25, .broken = 0.01}).write();
 }
 
-/// A way to run programs; all must do the same.
+/// A way to run programs. All must give the same results.
 struct Engine {
   Dispatch dispatch = Dispatch::Threaded;
   Native native = Native::Off;
@@ -66,9 +66,9 @@ constexpr Engine engines[] = {{Dispatch::Threaded, Native::Off},
                               {Dispatch::Switch, Native::Off},
                               {Dispatch::Threaded, Native::On}};
 
-/// How a program has ended, as the plain evaluator words it; empty while it runs.
+/// Returns how a program ended, in the words of the plain evaluator; empty while it runs.
 std::string ending(Machine& machine) {
-  const auto stop = machine.take_stop();
+  const auto stop = machine.take_termination();
   if (!stop)
     return "";
   return stop->error ? "Line " + std::to_string(stop->line) + ": " +
@@ -76,7 +76,7 @@ std::string ending(Machine& machine) {
                      : "end";
 }
 
-/// Both have executed equally many lines.
+/// Expects that both have executed the same number of lines.
 void expect_equal(const Machine& machine, const NotebookHost& host, const PlainEvaluator& plain,
                   const NotebookHost& plain_host) {
   ASSERT_EQ(machine.lines(), plain.lines);
@@ -125,7 +125,7 @@ TEST(Agreement, TheMachineDoesWhatTheTextSays) {
     compare(seed, engines[seed % std::size(engines)]);
 }
 
-/// Everything that a program has come to, as text; between lines temporaries mean nothing.
+/// Returns the whole state of a program as text; temporaries have no meaning between lines.
 std::string shown(Machine& machine, const NotebookHost& host) {
   const auto& core = machine.core();
   const auto& frames = core.frames;
@@ -143,10 +143,10 @@ std::string shown(Machine& machine, const NotebookHost& host) {
 }
 
 constexpr std::int64_t longest_slice = 100;
-/// How often a program went on for so many lines in a slice.
+/// How often a slice of each length ran.
 using SliceCounts = std::array<std::uint64_t, longest_slice + 1>;
 
-/// A program on each engine and on the plain evaluator, side by side; a line takes a nanosecond.
+/// A program on each engine and on the plain evaluator; a line takes a nanosecond.
 class SideBySide {
 public:
   SideBySide(const std::string& text, std::uint64_t seed)
@@ -166,7 +166,7 @@ public:
     return machines_[0]->next_event() != never && machines_[0]->lines() < 1000;
   }
 
-  /// Lets all of them run so many lines, where nothing waits, and compares them.
+  /// Runs this many lines on all of them, unless one waits, and compares.
   void run(std::int64_t lines, SliceCounts& counts) {
     const auto before = machines_[0]->lines();
     const auto limit = machines_[0]->next_event() + Duration{lines};
@@ -186,7 +186,7 @@ public:
       return;
     ASSERT_NO_FATAL_FAILURE(expect_equal(*machines_[0], hosts_[0], plain_, plain_host_))
         << listing_of(text_);
-    if (!end.empty() && end != "end") { // that it ends, the evaluator says only when it goes on
+    if (!end.empty() && end != "end") { // the evaluator reports the end only when continued
       ASSERT_EQ(end, plain_.end) << listing_of(text_);
     }
   }
@@ -210,7 +210,7 @@ TEST(Agreement, EnginesAgreeAfterEverySlice) {
     while (all.goes_on() && !::testing::Test::HasFailure())
       all.run(1 + static_cast<std::int64_t>(random.below(longest_slice)), counts);
   }
-  if (how_many() < enough_for_a_second) // fewer, as under valgrind, miss a length
+  if (how_many() < enough_for_a_second) // smaller numbers, as under valgrind, miss a length
     return;
   for (std::size_t lines = 1; lines <= longest_slice && !::testing::Test::HasFailure(); ++lines)
     EXPECT_GT(counts[lines], 0u) << "no slice had " << lines << " lines";
@@ -234,8 +234,8 @@ TEST(Agreement, DivisionByConstantsIsExact) {
       }
 }
 
-/// Machine code has short subroutines behind their calls, without a frame: wherever one is left,
-/// the frames must be those of the loop.
+/// Machine code inlines short subroutines without a frame. Wherever it is left, the frames must
+/// equal those of the loop.
 TEST(Agreement, SubroutinesCanBeLeftAnywhere) {
   constexpr std::array statements{"B=A/D",   "Z=A",       "B=C%D",
                                   "print A", "gosub 400", "delay 1",
@@ -256,7 +256,7 @@ TEST(Agreement, SubroutinesCanBeLeftAnywhere) {
     }
 }
 
-/// A program of which some bytes have been changed, lost or doubled.
+/// Returns a program with some bytes changed, lost or doubled.
 std::string damaged(std::uint64_t seed) {
   Random random{seed};
   auto text = write_program(seed);
@@ -284,12 +284,12 @@ TEST(AnyText, RunsTheSameOnBothEngines) {
 }
 
 TEST(Agreement, RandomLinesRunFar) {
-  // Programs that all stop at once would prove nothing.
+  // Programs that stop at once would prove nothing.
   std::uint64_t lines = 0;
   std::uint64_t long_ones = 0;
   for (std::uint64_t seed = 1; seed <= 500; ++seed) {
     NotebookHost host;
-    const auto text = RandomLines(seed).write(); // the evaluator views it
+    const auto text = RandomLines(seed).write(); // the evaluator refers to it
     PlainEvaluator plain(text, host, speed, seed);
     plain.run(most_lines);
     lines += plain.lines;

@@ -9,7 +9,7 @@
 namespace orb::vm {
 namespace {
 
-/// Writes down what happens.
+/// Records events.
 class Notebook final : public Observer {
 public:
   void on_event(Instant at, const Event& event) override { events.push_back({at, event}); }
@@ -38,6 +38,9 @@ protected:
     ball.append_basic(Area::Ram, as_bytes(text));
     ASSERT_EQ(ball.execute_basic(Area::Ram, line), Outcome::Done);
     ball.advance_to(ball.now() + time);
+  }
+  void abort() {
+    ball.receive(encode(protocol::make_command(spec::ApiCommand::AbortOrbbasicProgram)));
   }
   std::vector<protocol::Async> messages() {
     std::vector<protocol::Async> found;
@@ -227,7 +230,7 @@ TEST_F(TheBall, HitsTheEndOfAWallAndIsTurnedAside) {
 }
 
 TEST_F(TheBall, NeverLeavesARoomOfWalls) {
-  // A triangle with narrow corners, pushed about as hard as a script can.
+  // A triangle with narrow corners, and pushes as hard as a script allows.
   const Point corners[] = {{-80, -30}, {80, -30}, {0, 60}};
   for (int i = 0; i < 3; ++i)
     ball.apply(Wall::between(corners[i], corners[(i + 1) % 3]));
@@ -274,7 +277,7 @@ TEST_F(TheBall, ReportsErrorsOnBothChannels) {
 
 TEST_F(TheBall, AbortIsReported) {
   run("10 goto 10\n", 1s);
-  ball.abort_basic();
+  abort();
   ball.advance_to(ball.now() + 1s);
   const auto found = messages();
   ASSERT_EQ(found.size(), 2u);
@@ -348,9 +351,9 @@ TEST_F(TheBall, SleepsAfterInactivityUnlessAProgramRuns) {
   EXPECT_FALSE(ball.asleep());
   run("10 goto 10\n", 700s);
   EXPECT_FALSE(ball.asleep());
-  ball.abort_basic();
-  run("", 0s, 10); // text and program are still there
-  ball.abort_basic();
+  abort();
+  run("", 0s, 10); // text and program are unchanged
+  abort();
 }
 
 TEST_F(TheBall, WakesIntoFlash) {

@@ -10,7 +10,7 @@
 
 namespace orb::vm {
 
-/// A ball that is nothing but a notebook: system variables are a map, statements are written down.
+/// A host that records statements; system variables are a map.
 class NotebookHost final : public Host {
 public:
   std::int32_t read(spec::Variable variable, Instant) override {
@@ -52,16 +52,16 @@ public:
   Instant queue_full_until{};
 };
 
-/// What came of a program.
+/// The result of a program.
 struct BasicRun {
   std::string printed;
   std::vector<std::string> notes;
-  std::string end; ///< `end`, or the error as the robot words it, or `running`
+  std::string end; ///< `end`, or the error in the robot's words, or `running`
   std::uint64_t lines = 0;
   Instant at{};
 };
 
-/// Runs a program from its first line for at most `time`, input answered by nothing.
+/// Runs a program from its first line for at most `time`; `input` gets no answer.
 inline BasicRun run_basic(std::string_view text, Duration time = 10s, int line = -1,
                           Dispatch dispatch = Dispatch::Threaded, std::uint32_t speed = 3000) {
   NotebookHost host;
@@ -78,7 +78,7 @@ inline BasicRun run_basic(std::string_view text, Duration time = 10s, int line =
   run.notes = host.notes;
   run.lines = machine.lines();
   run.at = machine.now();
-  if (const auto stop = machine.take_stop())
+  if (const auto stop = machine.take_termination())
     run.end = stop->error ? "Line " + std::to_string(stop->line) + ": " +
                                 std::string(spec::info(*stop->error).text)
                           : "end";

@@ -14,7 +14,7 @@ using spec::ApiCommand;
 using spec::AsyncId;
 using spec::ResponseCode;
 
-/// What came back from the ball, with owned bytes.
+/// A packet from the ball, with bytes of its own.
 struct Packet {
   bool is_answer = false;
   std::uint8_t code = 0; ///< MRSP or message id
@@ -33,7 +33,7 @@ public:
     ball->connect();
   }
 
-  /// Sends bytes and returns what the ball has sent within `time`.
+  /// Sends bytes. Returns what the ball sends within `time`.
   std::vector<Packet> send(const Bytes& bytes, Duration time = 1s) {
     ball->receive(bytes);
     return wait(time);
@@ -54,11 +54,11 @@ public:
     return packets;
   }
 
-  /// Sends a command and returns its answer, which must come first.
+  /// Sends a command. Returns its answer, which must come first.
   Packet ask(ApiCommand command, Bytes data = {}, Duration time = 1s) {
     const auto seq = ++seq_;
     rest = send(encode(protocol::make_command(command, std::move(data), seq)), time);
-    // What was on its way before the command.
+    // Skip data sent before the command.
     while (!rest.empty() && !rest.front().is_answer &&
            rest.front().code == static_cast<std::uint8_t>(AsyncId::SensorData))
       rest.erase(rest.begin());
@@ -75,7 +75,7 @@ public:
     return static_cast<ResponseCode>(ask(command, std::move(data), 50ms).code);
   }
 
-  /// The messages of an id that came with, or after, the last answer.
+  /// Returns the messages of an id that came with or after the last answer.
   std::vector<Packet> messages(AsyncId id) const {
     std::vector<Packet> out;
     for (const auto& packet : rest)
@@ -94,7 +94,7 @@ private:
   std::uint8_t seq_ = 0;
 };
 
-/// Operands within their ranges, as many as the command takes.
+/// Returns valid operands, as many as the command takes.
 Bytes least_operands(const spec::CommandInfo& row) {
   Bytes data;
   for (const auto& field : spec::operands(row.command)) {
@@ -540,6 +540,16 @@ TEST(Dispatcher, StopOnDisconnectIsObeyedOnce) {
   EXPECT_FALSE(client.ball->body().stopped());
 }
 
+TEST(Dispatcher, SleepEndsTheMacroOfAConsumable) {
+  Client client;
+  client.ask(ApiCommand::BuyConsumable, {3, 2});
+  EXPECT_EQ(client.code(ApiCommand::UseConsumable, {3}), ResponseCode::Ok);
+  EXPECT_EQ(client.code(ApiCommand::Sleep, {0, 1, 0, 0, 0}), ResponseCode::Ok);
+  client.watch(1s);
+  client.ball->connect();
+  EXPECT_EQ(client.code(ApiCommand::UseConsumable, {3}), ResponseCode::Ok);
+}
+
 TEST(Dispatcher, SleepIsAnsweredThenObeyedAndWakesByItself) {
   Client client;
   EXPECT_EQ(client.code(ApiCommand::Sleep, {0xFF, 0xFF, 0, 0, 0}), ResponseCode::Unsupported);
@@ -554,7 +564,7 @@ TEST(Dispatcher, LocatorFollowsSetHeadingUnlessToldNotTo) {
   Client client;
   client.ask(ApiCommand::SetHeading, {0, 0});
   client.ask(ApiCommand::Roll, {0, 0, 90, 1});
-  client.ask(ApiCommand::SetHeading, {0, 0}); // 90 is 0 from now on
+  client.ask(ApiCommand::SetHeading, {0, 0}); // renames 90 to 0
   client.ask(ApiCommand::Roll, {100, 0, 0, 1}, 2s);
   const auto place = client.ask(ApiCommand::ReadLocator).data;
   EXPECT_GT(static_cast<std::int16_t>(read_u16(place, 0)), 50); // still to the right

@@ -4,7 +4,7 @@
 
 namespace orb::vm {
 
-/// Drives, blinks, reads every sensor, draws random numbers and bumps into walls.
+/// A program that drives, blinks, reads every sensor, draws random numbers and bumps into walls.
 inline constexpr std::string_view lively =
     "10 basflg 1\n"
     "20 H = rnd 360 - 1\n"

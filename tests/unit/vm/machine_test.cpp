@@ -5,7 +5,7 @@
 namespace orb::vm {
 namespace {
 
-/// A program, what it prints and how it ends. The engines must agree on each.
+/// A program, its output and its end. The engines must agree on each.
 struct Case {
   const char* name;
   const char* text;
@@ -126,7 +126,7 @@ TEST_P(Programs, PrintAndEnd) {
     const auto run = run_basic(test.text, 10s, -1, dispatch);
     EXPECT_EQ(run.printed, test.printed) << bytecode::listing(compiler::load(test.text));
     EXPECT_EQ(run.end, test.end);
-    // However often the machine is interrupted, the program notices nothing.
+    // The program must not notice interruptions of the machine.
     NotebookHost host;
     Machine machine(3000, 1, dispatch);
     auto chunk = compiler::load(test.text);

@@ -1,4 +1,4 @@
-// Macros on a whole ball: flags against clients and programs, and what reaches the body and lamps.
+// Macros on a whole ball: flags against clients and programs, and effects on body and lamps.
 
 #include "vm/ball.h"
 
@@ -159,7 +159,8 @@ TEST_F(MacroOnBall, ANewSpeedLetsARotationGoOn) {
 
 TEST_F(MacroOnBall, ANewSpeedKeepsTheHeadingAndARollDuringARotationIsIgnored) {
   run("FF 00 05 64 00 00 64 1A 00 5A 03 E8 05 64 00 B4 64 25 C8 00 0B 07 D0 00");
-  advance(1200ms); // roll along 0, turn by 90 within a second, roll along 180 in vain, then faster
+  // Roll along 0, turn by 90 within a second, roll along 180 without effect, then faster.
+  advance(1200ms);
   EXPECT_DOUBLE_EQ(ball->body().heading_setpoint_deg(), 90);
   EXPECT_EQ(ball->body().speed_setpoint(), 200);
 }

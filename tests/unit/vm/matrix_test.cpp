@@ -16,8 +16,8 @@ constexpr Color red{255, 0, 0};
 constexpr Color blue{0, 0, 255};
 constexpr Instant start{};
 
-/// As somebody sees it: rows from the top, `.` for a dark lamp, the first letter of its colour for
-/// another.
+/// Draws the matrix as seen: rows from the top, `.` for a dark lamp, otherwise the first letter of
+/// its colour.
 std::string seen(const Matrix& matrix) {
   std::string text = "\n";
   for (int y = Matrix::side - 1; y >= 0; --y) {
@@ -49,7 +49,7 @@ Bytes plain_frame(unsigned index) {
   return bytes;
 }
 
-/// One that plays red, blue, red… with four frames a second.
+/// An animation of red, blue, red… with four frames a second.
 Matrix blinker(bool fade = false) {
   Matrix matrix;
   matrix.save_frame(7, plain_frame(1));
@@ -171,7 +171,7 @@ TEST(Matrix, TurnsClockwise) {
   EXPECT_EQ(matrix.pixels()[8], blue);
   matrix.rotate(0);
   EXPECT_EQ(matrix.pixels()[7 * 8 + 1], blue);
-  matrix.pixel(5, 0, blue); // what is drawn while it is turned turns, too
+  matrix.pixel(5, 0, blue); // drawing while rotated is rotated, too
   matrix.rotate(1);
   matrix.pixel(0, 0, blue);
   EXPECT_EQ(matrix.pixels()[7 * 8], blue);
@@ -366,7 +366,7 @@ TEST(Matrix, StandsWhileItIsPaused) {
 TEST(Matrix, WhatIsDueIsShownBeforeAPause) {
   auto matrix = blinker();
   matrix.play(3, false, start);
-  matrix.pause(start + 300ms); // it has come to its end
+  matrix.pause(start + 300ms); // it has already ended
   EXPECT_EQ(matrix.pixels(), filled(blue));
   matrix.resume(start + 1s);
   EXPECT_EQ(matrix.next_event(), never);
@@ -421,7 +421,7 @@ TEST(Matrix, ABallTellsWhatItsMatrixShows) {
   EXPECT_EQ(heard.pictures[0], std::pair(start + 1s, filled(blue)));
 }
 
-// It does not matter how often somebody looks.
+// The result does not depend on how often it is looked at.
 TEST(Matrix, DoesNotDependOnHowTimeIsCut) {
   const auto same = rc::check([] {
     auto whole = blinker(*rc::gen::arbitrary<bool>());

@@ -1,7 +1,7 @@
-// Systems that let no written memory become executable: Linux from 6.3 on for a process that asks,
+// Systems that forbid making written memory executable: Linux from 6.3 on for a process that asks,
 // and systemd's MemoryDenyWriteExecute, which filters system calls.
 
-#include "vm/native/native.h"
+#include "vm/machine/native/native.h"
 
 #include "basic_run.h"
 
@@ -36,7 +36,7 @@ bool forbid_by_filter() {
          prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, &filter) == 0;
 }
 
-/// Runs a program where that is forbidden, in a process that then ends.
+/// Runs a program under that restriction, in a process that then ends.
 [[noreturn]] void run_where_forbidden(bool (*forbid)()) {
   if (!forbid()) {
     std::fputs("this kernel cannot forbid it", stderr);

@@ -1,4 +1,4 @@
-#include "vm/native/native.h"
+#include "vm/machine/native/native.h"
 
 #include "basic_run.h"
 #include "tests/hostile_programs.h"
@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::string_view counts = "10 A=A+1\n20 if A<20000 then goto 10\n30 print A\n";
 
-/// What is asked of machine code; skipped where this build has none.
+/// Tests of machine code; skipped if this build has none.
 class NativeCodeTest : public ::testing::Test {
 protected:
   void SetUp() override {
@@ -103,7 +103,7 @@ TEST_F(NativeCodeTest, TakesBoundedMemoryForHostilePrograms) {
   }
 }
 
-/// A program so large that no area of a ball holds it is interpreted.
+/// A program larger than any area of a ball is interpreted.
 TEST_F(NativeCodeTest, IsNotMadeOfProgramsThatAreTooLarge) {
   std::string text;
   for (int line = 0; line < 65'000; ++line)

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "basic_run.h"
-#include "compiler/text/parse.h"
+#include "compiler/text/parse_basic.h"
 #include "compiler/text/program.h"
 
 #include <array>
@@ -12,8 +12,8 @@
 
 namespace orb::vm {
 
-/// orbBasic once more, as plainly as it can be said: it walks the tree of the text, line by line,
-/// and keeps no more than the language asks for. Slow on purpose; the machine must agree with it.
+/// A second orbBasic, as simple as possible: walks the tree of the text line by line and keeps only
+/// what the language requires. Deliberately slow; the machine must agree with it.
 class PlainEvaluator {
 public:
   PlainEvaluator(std::string_view text, NotebookHost& host, std::int64_t lines_per_second,
@@ -23,7 +23,7 @@ public:
     line_ = first_ = following(0);
   }
 
-  /// Goes on until so many lines have run, or fewer where the program ends.
+  /// Continues for this many lines, or until the program ends.
   void run(std::uint64_t most_lines) {
     while (end.empty() && lines < most_lines) {
       if (line_ >= program_.lines.size()) {
@@ -107,8 +107,8 @@ private:
     return elements_[static_cast<std::size_t>(y - 1)];
   }
 
-  // Expressions: operands stand before operators, so a stack evaluates them in the order of the
-  // text. A level too deep is met where it opens.
+  // Expressions: operands precede operators, so a stack evaluates them in text order. A level too
+  // deep fails where it opens.
   std::int32_t value(std::uint32_t root) {
     const auto& nodes = program_.nodes;
     const std::uint32_t first = nodes[root].first;

@@ -9,16 +9,16 @@
 
 namespace orb::vm {
 
-/// Writes orbBasic programs at random, the same text for the same seed and compiler: the order in
-/// which parts of a sum are drawn is the compiler's. Beside
-/// tests/random_program.h, which knows every statement and spelling, these keep to what runs far.
+/// Writes random orbBasic programs; the text depends on the seed and on the compiler, which orders
+/// the random draws in a sum. tests/random_program.h knows every statement and spelling; these
+/// programs keep to what runs far.
 class RandomLines {
 public:
   explicit RandomLines(std::uint64_t seed) : random_{seed} {}
 
   std::string write() {
     const int lines = 3 + below(20);
-    // Most programs may use Z and read data: what faults at once shows little.
+    // Most programs may use Z and read data: early faults show little.
     std::string text;
     if (chance(85))
       text = "4 Y = " + std::to_string(1 + below(20)) + "\n5 data 7," + number() + ",3\n";
@@ -50,7 +50,7 @@ private:
     }
   }
   std::string line_number() {
-    return chance(96) ? std::to_string(10 * (1 + below(last_ / 10))) : "99999"; // missing
+    return chance(96) ? std::to_string(10 * (1 + below(last_ / 10))) : "99999"; // a missing line
   }
 
   std::string leaf() {

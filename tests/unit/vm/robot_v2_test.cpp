@@ -1,11 +1,11 @@
-// Virtual robots of packets v2, held against what clients of others send and expect.
+// Virtual robots with packets v2, tested with requests of third-party clients.
 
 #include "vm/robot_v2.h"
 
 #include "base/text/text.h"
 #include "protocol/describe_v2.h"
 #include "protocol/payload_v2.h"
-#include "vm/bluetooth.h"
+#include "vm/common/bluetooth.h"
 
 #include <bit>
 #include <fmt/format.h>
@@ -22,7 +22,7 @@ using spec::V2Command;
 using spec::V2Error;
 using spec::V2Message;
 
-/// A client that sends packets and notes what comes.
+/// A client that sends packets and records answers.
 class PacketClient {
 public:
   explicit PacketClient(Robot which, Observer* observer = nullptr) : robot(spec::info(which)) {
@@ -36,7 +36,7 @@ public:
     v2->connect();
   }
 
-  /// The error of the answer; its data is in `answer`.
+  /// Returns the error of the answer; its data is in `answer`.
   V2Error ask(V2Command command, Bytes data = {}) {
     return ask(address(protocol::make_request(command, std::move(data), seq), robot));
   }
@@ -109,14 +109,14 @@ TEST(RobotV2, AnswersTheExampleOfEachCommandThatItKnowsAndRefusesTheOthers) {
       if (row.command == V2Command::StreamStart && spec::knows(client.robot, row))
         client.ask(V2Command::StreamConfigure, {1, 0, 10, 2});
       const bool shell = row.command == V2Command::Shell;
-      // Nothing has been kept that could be shown.
+      // Nothing has been stored that could be shown.
       const bool shows = row.command == V2Command::MatrixPlay ||
                          row.command == V2Command::MatrixPlayLoop ||
                          row.command == V2Command::MatrixShowFrame;
       const auto name = fmt::format("{}: {}", client.robot.name, row.name);
       auto request =
           address(protocol::make_request(row.command, example_of(row), client.seq), client.robot);
-      if (row.command == V2Command::StreamConfigure) // its example is of the second
+      if (row.command == V2Command::StreamConfigure) // its example is for the second processor
         request.target = spec::v2_target(spec::V2Processor::Secondary);
       const auto error = client.ask(request);
       if (!spec::knows(client.robot, row)) {
@@ -136,7 +136,7 @@ TEST(RobotV2, AnswersTheExampleOfEachCommandThatItKnowsAndRefusesTheOthers) {
   }
 }
 
-/// What a well-known client sends before a program, with streams every 150 ms.
+/// The requests of a well-known client before a program, with streams every 150 ms.
 TEST(RobotV2, GivesAnEducationalClientWhatItAsksFor) {
   struct Stream {
     Robot robot;
@@ -178,7 +178,25 @@ TEST(RobotV2, GivesAnEducationalClientWhatItAsksFor) {
   }
 }
 
-/// Three tokens on two processors, each in a packet of its own.
+/// Clients ask for the extended sensors right after the others, and then expect a value.
+TEST(RobotV2, ExtendedSensorsDoNotDelayAStream) {
+  PacketClient client(Robot::Mini);
+  ASSERT_EQ(client.ask(V2Command::Wake), V2Error::Success);
+  EXPECT_EQ(client.ask(V2Command::StreamMask, {0, 37, 0, 0, 1, 0, 0}), V2Error::Success);
+  client.live(30ms);
+  EXPECT_EQ(client.ask(V2Command::StreamExtended, {0, 0, 0, 0}), V2Error::Success);
+  client.live(6ms);
+  EXPECT_EQ(client.count(V2Message::Sample), 1);
+  EXPECT_EQ(client.ask(V2Command::StreamMask, {0, 37, 0, 0, 0, 0, 0}), V2Error::Success);
+  EXPECT_EQ(client.ask(V2Command::StreamExtended, {0x03, 0x80, 0, 0}), V2Error::Success);
+  client.live(38ms);
+  EXPECT_EQ(client.count(V2Message::Sample), 2);
+  EXPECT_EQ(client.ask(V2Command::StreamExtended, {0, 0, 0, 0}), V2Error::Success);
+  client.live(100ms);
+  EXPECT_EQ(client.count(V2Message::Sample), 2);
+}
+
+/// Three tokens on two processors, each in a separate packet.
 TEST(RobotV2, StreamsEachTokenOfAnRvr) {
   PacketClient client(Robot::Rvr);
   ASSERT_EQ(client.ask(V2Command::Wake), V2Error::Success);
@@ -244,6 +262,53 @@ TEST(RobotV2, ADroidThatWasJustWokenDropsWhatMovesIt) {
   client.live(2s);
   EXPECT_EQ(client.ask(V2Command::DriveWithHeading, {60, 0, 0, 0}), V2Error::Success);
   EXPECT_TRUE(client.ball->body().is_driven());
+}
+
+TEST(RobotV2, BackwardItFacesWhereItIsToldAndRollsTheOtherWay) {
+  PacketClient client(Robot::Bolt);
+  client.ask(V2Command::Wake);
+  client.ask(V2Command::DriveWithHeading, {80, 0, 0, 1});
+  client.live(1500ms);
+  const auto back = client.ball->body().world_pose();
+  EXPECT_LT(back.y_cm, -20);
+  EXPECT_NEAR(back.heading_deg, 0, 1);
+  client.ask(V2Command::DriveWithHeading, {0, 0, 0, 0});
+  client.live(1s);
+  EXPECT_EQ(client.ball->body().world_pose().speed_cm_s, 0);
+  client.ask(V2Command::ResetYaw);
+  client.ask(V2Command::DriveWithHeading, {80, 0, 90, 1});
+  client.live(1500ms);
+  EXPECT_LT(client.ball->body().world_pose().x_cm, -20);
+  EXPECT_NEAR(client.ball->body().world_pose().heading_deg, 90, 1);
+}
+
+TEST(RobotV2, ADroidTellsWhereItsThirdLegIs) {
+  PacketClient client(Robot::R2q5);
+  client.ask(V2Command::Wake);
+  const auto leg = [&] {
+    EXPECT_EQ(client.ask(V2Command::GetLegPosition), V2Error::Success);
+    return protocol::read_f32(client.answer->data, 0);
+  };
+  EXPECT_EQ(leg(), 0);
+  client.ask(V2Command::LegAction, {1});
+  EXPECT_EQ(leg(), 1);
+  client.ask(V2Command::SetLegPosition, {0x3F, 0, 0, 0});
+  EXPECT_EQ(leg(), 0.5);
+}
+
+TEST(RobotV2, PutToSleepItEndsItsLinkHalfAMinuteLater) {
+  PacketClient client(Robot::Mini);
+  client.ask(V2Command::Wake);
+  client.ask(V2Command::Sleep);
+  client.live(20s);
+  client.ask(V2Command::Wake);
+  client.live(20s);
+  EXPECT_TRUE(client.ball->connected());
+  client.ask(V2Command::Sleep);
+  client.live(29s);
+  EXPECT_TRUE(client.ball->connected());
+  client.live(2s);
+  EXPECT_FALSE(client.ball->connected());
 }
 
 TEST(RobotV2, AnRvrSaysThatItWillSleepAndStaysAwakeIfItIsPinged) {

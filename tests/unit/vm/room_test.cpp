@@ -27,7 +27,7 @@ TEST(Neighbours, AreThoseThatEveryPairComparedWouldFind) {
     for (auto left = random.next() % 60; left > 0; --left)
       places.push_back({between(random, -span, span), between(random, -span, span)});
     const double distance = between(random, 0.1, 60);
-    std::vector<Pair> wanted;
+    std::vector<IndexPair> wanted;
     for (std::size_t i = 0; i < places.size(); ++i)
       for (std::size_t j = i + 1; j < places.size(); ++j)
         if (std::hypot(places[i].x - places[j].x, places[i].y - places[j].y) <= distance)
@@ -85,7 +85,7 @@ TEST(Contacts, KeepMomentumAndMakeNoEnergy) {
 
 TEST(Contacts, TwoThatMeetHeadOnGiveBackTheirShare) {
   const std::vector<Mover> balls{{{0, 0}, {100, 0}}, {{2 * radius - 0.1, 0}, {-100, 0}}};
-  const auto shoves = contacts(balls, std::vector<Pair>{{0, 1}});
+  const auto shoves = contacts(balls, std::vector<IndexPair>{{0, 1}});
   EXPECT_NEAR(balls[0].velocity.x + shoves[0].change.x, -100 * spec::ball::ball_restitution, 1e-9);
   ASSERT_EQ(shoves[0].knocks.size(), 1U);
   EXPECT_NEAR(shoves[0].knocks[0].into.x, 100, 1e-9) << "as a wall at the same speed";
@@ -93,7 +93,7 @@ TEST(Contacts, TwoThatMeetHeadOnGiveBackTheirShare) {
   EXPECT_NEAR(shoves[1].knocks[0].into.x, -100, 1e-9);
 }
 
-/// A ball of a room, and all that happened to it as one text.
+/// A ball of a room that records all its events as one text.
 class Guest final : public Resident, public Observer {
 public:
   Guest(const Placement& start, std::uint64_t seed, std::string_view program)
@@ -139,7 +139,7 @@ private:
   Ball ball_;
 };
 
-/// Drives anywhere, with pauses, waits now and then until somebody moves it, and lets go.
+/// Drives anywhere, with pauses, sometimes waits until it is moved, and sometimes gives way.
 constexpr std::string_view restless = "10 basflg 1\n"
                                       "20 goroll rnd 360 - 1,rnd 200,rnd 2\n"
                                       "30 delay 50 + rnd 900\n"
@@ -210,7 +210,7 @@ TEST(TheRoom, NoBallIsInsideAnotherOrBehindAWall) {
       }
     }
   }
-  EXPECT_LT(deepest, 1.0); // cm: in a crush against a wall they are pressed a little
+  EXPECT_LT(deepest, 1.0); // cm: a crowd against a wall compresses slightly
 }
 
 TEST(TheRoom, ABallThatTouchesNothingLivesAsItDoesAlone) {

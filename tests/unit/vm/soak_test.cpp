@@ -9,7 +9,7 @@
 namespace orb::vm {
 namespace {
 
-/// ORB_SOAK_HOURS simulated hours by 20 seeds, which ./dev fuzz sets to 24; a minute in ./dev test.
+/// Simulates ORB_SOAK_HOURS hours with 20 seeds: 24 in ./dev fuzz, a minute in ./dev test.
 TEST(Trace, SoakTakesNoMemory) {
   const char* wanted = std::getenv("ORB_SOAK_HOURS");
   const Duration time = wanted ? std::atoi(wanted) * Duration{1h} : Duration{1min};

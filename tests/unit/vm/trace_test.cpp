@@ -9,7 +9,7 @@
 namespace orb::vm {
 namespace {
 
-/// FNV-1a over everything that an observer is told, numbers to the last bit.
+/// FNV-1a over all events, with numbers exact to the last bit.
 class TraceHash final : public Observer {
 public:
   void on_event(Instant at, const Event& event) override {
@@ -34,8 +34,8 @@ private:
     mix(bits);
   }
   void mix_int(int value) { mix(static_cast<std::uint64_t>(static_cast<std::int64_t>(value))); }
-  void take(const event::StopLost&) {} // of robots elsewhere
-  void take(const event::Matrix&) {}   // of a BOLT
+  void take(const event::StopLost&) {} // only of remote robots
+  void take(const event::Matrix&) {}   // only of a BOLT
   void take(const event::Print& x) {
     for (const char c : x.text)
       mix(static_cast<unsigned char>(c));
@@ -101,7 +101,7 @@ std::string shown(const TraceHash& trace) {
   return fmt::format("{:016x} {}", trace.hash, trace.events);
 }
 
-// The same from every compiler and at every level of optimisation: ./dev fuzz builds them all.
+// Every compiler and optimisation level must give the same result: ./dev fuzz builds them all.
 TEST(Trace, IsTheSameEverywhere) {
   EXPECT_EQ(shown(trace(lively, 60s, 1, Dispatch::Threaded)), "68aad7bb7e7fd56f 4150");
   EXPECT_EQ(shown(trace(lively, 60s, 2, Dispatch::Switch)), "21838d3c45237fdf 4126");
@@ -113,13 +113,13 @@ TEST(Trace, DoesNotDependOnHowTimeIsCut) {
   EXPECT_EQ(shown(trace(lively, 8s, 7, Dispatch::Switch, 160ms)), whole);
 }
 
-/// Sees every step, and looks away.
+/// Observes every step and ignores it.
 class Watching final : public StepObserver {
 public:
   void on_step(Instant, const Body&) override {}
 };
 
-/// Tells of a place with every event.
+/// Records the place at every event.
 class Places final : public Observer {
 public:
   void on_event(Instant at, const Event& event) override {
@@ -131,11 +131,11 @@ public:
   const Ball* ball = nullptr;
 };
 
-/// A ball that rolls freely is advanced late, one whose steps are watched is not.
+/// A freely rolling ball is advanced late, but not while its steps are observed.
 TEST(Trace, IsTheSameHoweverLateTheBodyComes) {
   constexpr std::string_view program = "10 goroll A,1 + (A & 64),1\n"
                                        "20 for T = 1 to 40\n"
-                                       "30 RGB T,T,T\n" // tells, but reads nothing
+                                       "30 RGB T,T,T\n" // writes, but reads nothing
                                        "40 next T\n"
                                        "50 if A % 20 = 0 then ctrl = 0 else B = B + 1\n"
                                        "60 for T = 1 to 60\n" // a slow ball stops meanwhile
@@ -161,7 +161,7 @@ TEST(Trace, IsTheSameHoweverLateTheBodyComes) {
     return places.text;
   };
   Watching watching;
-  // The battery becomes low on the way, here or there in the program, or not at all.
+  // The battery becomes low at different places in the program, or not at all.
   for (const double volts : {1e-5, 2e-5, 3e-5, 4e-5, 5e-5, 0.5})
     EXPECT_EQ(run(volts, nullptr), run(volts, &watching));
 }

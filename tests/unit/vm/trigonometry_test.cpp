@@ -30,7 +30,7 @@ TEST(Trigonometry, IsExactWhereHeadingsAre) {
   EXPECT_EQ(arctangent(0, 1), 0);
 }
 
-// The last bits, from every compiler and C library.
+// The last bits must not depend on compiler or C library.
 TEST(Trigonometry, IsTheSameEverywhere) {
   double sum = 0;
   for (int i = 0; i < 10000; ++i)

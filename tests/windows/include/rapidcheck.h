@@ -1,6 +1,6 @@
-// What the tests ask of RapidCheck, for systems for which Debian does not build that library: the
-// same properties for as many random cases, the same in each run. A case that fails is shown as it
-// is, not made smaller.
+// The part of RapidCheck that the tests use, for systems for which Debian does not build it: checks
+// the same number of random cases, the same in each run. A failing case is shown as it is, not
+// shrunk.
 
 #pragma once
 
@@ -18,10 +18,10 @@
 
 namespace rc {
 
-/// The case that is being made.
+/// The case being generated.
 struct Case {
   std::mt19937_64 random{1};
-  std::size_t size = 0; ///< how long containers may become
+  std::size_t size = 0; ///< the greatest length of containers
   std::ostringstream log;
 };
 inline Case current;
@@ -40,7 +40,7 @@ private:
 
 namespace gen {
 
-/// From `from` on, below `to`.
+/// Draws from `from` up to, but not including, `to`.
 template <typename T>
 Gen<T> inRange(T from, T to) {
   return Gen<T>([=] {
@@ -101,7 +101,7 @@ Gen<T> resize(std::size_t size, const Gen<T>& what) {
 
 } // namespace gen
 
-/// What RC_ASSERT throws.
+/// Thrown by RC_ASSERT.
 struct Falsified {
   const char* condition;
   int line;

@@ -1,0 +1,9 @@
+// Traffic light: red, yellow, green.
+async function startProgram() {
+  setMainLed({ r: 255, g: 0, b: 0 });
+  await delay(2);
+  setMainLed({ r: 255, g: 255, b: 0 });
+  await delay(1);
+  setMainLed({ r: 0, g: 255, b: 0 });
+  await delay(2);
+}

@@ -1,0 +1,42 @@
+// Runs in the frame of a JavaScript program, whose origin is nobody's: keeps the worker that the program is in, and
+// passes on what it says: text, once for each question. Nothing else is heard, so that a program can neither flood the
+// page nor hand it anything but text.
+
+const most = 4_000_000; // letters of a message
+let port = null, worker = null, is_asked = false;
+
+/** The end of the program, whatever it is doing. */
+function end(kind, more) {
+  worker?.terminate();
+  worker = null;
+  if (kind) port.postMessage({ kind, ...more });
+}
+function take({ data }) {
+  if (!worker) return;
+  if (!is_asked) return end("flood");
+  is_asked = false;
+  if (typeof data !== "string") return end("garbage");
+  if (data.length > most) return end("large");
+  port.postMessage({ kind: "said", text: data });
+}
+function hear({ data: { begin, ask, over } }) {
+  if (over) return end();
+  if (begin) {
+    worker = new Worker(URL.createObjectURL(new Blob([begin], { type: "text/javascript" })));
+    worker.onmessage = take;
+    worker.onmessageerror = () => end("garbage");
+    // What a program throws it tells itself: this is a text that is none.
+    worker.onerror = event => {
+      event.preventDefault();
+      end("broken", { text: event.message ?? "", line: event.lineno ?? 0 });
+    };
+  }
+  if (!ask) return;
+  is_asked = true;
+  worker?.postMessage(ask);
+}
+addEventListener("message", ({ source, ports: [given] }) => {
+  if (source !== parent || port || !given) return;
+  port = given;
+  port.onmessage = hear;
+});

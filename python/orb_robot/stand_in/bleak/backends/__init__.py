@@ -1,0 +1,1 @@
+"""What Bleak keeps beside its two classes."""
