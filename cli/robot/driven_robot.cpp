@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <optional>
 #include <thread>
 
 namespace orb::cli {
@@ -25,14 +26,20 @@ tl::expected<spec::Robot, Failure> kind_of(const Link& link, const PortOptions& 
   return run::find_robot(*link.transport, introduction_time);
 }
 
-/// Opens the port again: the robot drives until it is stopped or stops by itself.
+using Clock = std::chrono::steady_clock;
+
+/// Opens the port again after a link was lost, until `until`. After the first link it tries at
+/// least once.
 std::unique_ptr<protocol::Transport> open_again(const Context& context, const PortOptions& port,
-                                                DrivenRobot& robot) {
+                                                DrivenRobot& robot, Clock::time_point until) {
   constexpr auto pause = std::chrono::milliseconds{100};
-  using Clock = std::chrono::steady_clock;
-  robot.link.stopper->close(); // a device has a single user at a time
   const int asked = InterruptGuard::asked();
-  const auto until = Clock::now() + spec::v2_drive_timeout + robot.link.budgets.answer;
+  const bool reopened = robot.again != nullptr;
+  (reopened ? *robot.again : robot.link).stopper->close(); // a device has a single user at a time
+  if (reopened)
+    std::this_thread::sleep_for(pause);
+  if (reopened && Clock::now() >= until)
+    return nullptr;
   do {
     if (auto again = open_link(context, port)) {
       robot.again = std::make_unique<Link>(*std::move(again));
@@ -65,8 +72,11 @@ connect_robot(const Context& context, const PortOptions& given, const std::strin
   robot->tether.budgets.collisions = {port.collision_threshold, port.collision_threshold};
   robot->tether.note = [&context](const std::string& message) { print_note(context, message); };
   if (!robot->link.is_sim)
-    robot->tether.reopen = [&context, port, &robot = *robot] {
-      return open_again(context, port, robot);
+    robot->tether.reopen = [&context, port, &robot = *robot,
+                            until = std::optional<Clock::time_point>{}]() mutable {
+      if (!until)
+        until = Clock::now() + spec::v2_drive_timeout + robot.link.budgets.answer;
+      return open_again(context, port, robot, *until);
     };
   return robot;
 }

@@ -139,15 +139,9 @@ std::string Pilot::words() const {
 
 Attended drive_attended(Tether& robot, const TetherOptions& tether,
                         const std::function<tl::expected<void, Failure>()>& drive) {
-  Attended end{contain(drive), false, nullptr};
-  end.stopped = robot.finish();
-  if (end.stopped || end.driven || end.driven.error().code != ExitCode::LinkLost || !tether.reopen)
-    return end;
-  end.link = tether.reopen();
-  if (end.link != nullptr) {
-    robot.relink(*end.link);
-    end.stopped = robot.finish();
-  }
+  Attended end{contain(drive), {robot.finish(), nullptr}};
+  if (!end.stopping.stopped && !end.driven && end.driven.error().code == ExitCode::LinkLost)
+    end.stopping = stop_anew(robot, tether);
   return end;
 }
 

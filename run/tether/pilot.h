@@ -74,8 +74,7 @@ private:
 /// How an attended drive ended.
 struct Attended {
   tl::expected<void, Failure> driven;
-  bool stopped = false;                      ///< the robot has acknowledged the stop
-  std::unique_ptr<protocol::Transport> link; ///< the new link, if the first was lost
+  Stopping stopping;
 };
 
 /// Lets `drive` drive a prepared robot, then stops it whatever happened, even if `drive` threw (see

@@ -136,14 +136,11 @@ tl::expected<TetheredEnding, Failure> run_tethered(std::span<const Input> inputs
     run.end();
     stopped = robot.finish(run.hear());
   }
-  std::unique_ptr<protocol::Transport> second;
+  Stopping anew; // keeps the link of `robot` open
   const bool lost = robot.link_lost() || (failure && failure->code == ExitCode::LinkLost);
-  if (!stopped && tether.reopen && lost) {
-    second = tether.reopen();
-    if (second != nullptr) {
-      robot.relink(*second);
-      stopped = robot.finish();
-    }
+  if (!stopped && lost) {
+    anew = stop_anew(robot, tether);
+    stopped = anew.stopped;
   }
   if (!failure)
     failure = robot.verdict();
@@ -160,6 +157,21 @@ tl::expected<TetheredEnding, Failure> run_tethered(std::span<const Input> inputs
   }
   return TetheredEnding{
       finished(*std::move(ending), stopped), std::move(failure), tether.robot, {}};
+}
+
+Stopping stop_anew(Tether& robot, const TetherOptions& tether) {
+  Stopping anew;
+  if (!tether.reopen)
+    return anew;
+  do {
+    auto next = tether.reopen();
+    if (next == nullptr)
+      break;
+    robot.relink(*next);
+    anew.link = std::move(next);
+    anew.stopped = robot.finish();
+  } while (!anew.stopped && robot.link_lost());
+  return anew;
 }
 
 tl::expected<TetheredEnding, Failure> run_replayed(std::span<const Input> inputs,

@@ -302,7 +302,8 @@ tl::expected<void, Failure> drive_by_hand(Context& context, const DriveOptions& 
       return {};
     }
   });
-  const auto& [driven, stopped, second] = end;
+  const auto& driven = end.driven;
+  const auto& [stopped, second] = end.stopping;
   print_ended(context, stopped ? ExitCode::Done : ExitCode::LinkLost,
               stopped ? run::stop_done : run::stop_lost);
   if (options.sleeps) {

@@ -153,7 +153,7 @@ TEST(Attended, StopsTheRobotWhateverHappens) {
           throw std::runtime_error("a vase fell");
         return driven;
       });
-      EXPECT_TRUE(end.stopped) << row.name;
+      EXPECT_TRUE(end.stopping.stopped) << row.name;
       EXPECT_FALSE(far.drives()) << row.name << " is left driving";
       EXPECT_EQ(end.driven.has_value(), !breaks) << row.name;
       if (breaks) {
@@ -161,6 +161,64 @@ TEST(Attended, StopsTheRobotWhateverHappens) {
         EXPECT_NE(end.driven.error().message.find("a vase fell"), std::string::npos);
       }
     }
+}
+
+/// A link that is lost at the first use.
+class LostLink final : public protocol::Transport {
+public:
+  explicit LostLink(const protocol::Transport& clock) : clock_(clock) {}
+  Instant now() const override { return clock_.now(); }
+  tl::expected<void, protocol::LinkError> write(ByteView /*bytes*/) override { return lost(); }
+  tl::expected<Bytes, protocol::LinkError> read(Instant /*deadline*/) override { return lost(); }
+
+private:
+  static tl::unexpected<protocol::LinkError> lost() {
+    return tl::unexpected(
+        protocol::LinkError{protocol::LinkError::Kind::Closed, "the other end closed it"});
+  }
+  const protocol::Transport& clock_;
+};
+
+TEST(Attended, StopsOverTheFirstLinkThatWorksAgain) {
+  test::FarRobot far(spec::Robot::Mini, *protocol::parse_fault_plan("seed=1"), 10ms);
+  LostLink lost(*far.link);
+  Tether robot(*far.link, spec::Robot::Mini, TetherBudgets{});
+  ASSERT_TRUE(robot.begin(Aim::Zero));
+  TetherOptions tether;
+  int opened = 0;
+  tether.reopen = [&]() -> std::unique_ptr<protocol::Transport> {
+    ++opened;
+    if (opened < 3)
+      return std::make_unique<LostLink>(*far.link);
+    return std::move(far.link);
+  };
+  const auto end = drive_attended(robot, tether, [&]() -> tl::expected<void, Failure> {
+    auto driven = set_off(robot);
+    EXPECT_TRUE(driven && far.drives());
+    robot.relink(lost);
+    return robot.pump(robot.now() + 1s, [](const RobotMessage&) {});
+  });
+  EXPECT_EQ(opened, 3);
+  EXPECT_TRUE(end.stopping.stopped);
+  EXPECT_FALSE(far.drives());
+}
+
+TEST(Attended, GivesUpWhenNoLinkWorks) {
+  test::FarRobot far(spec::Robot::Mini, *protocol::parse_fault_plan("seed=1"), 10ms);
+  LostLink lost(*far.link);
+  Tether robot(*far.link, spec::Robot::Mini, TetherBudgets{});
+  ASSERT_TRUE(robot.begin(Aim::Zero));
+  TetherOptions tether;
+  int left = 2;
+  tether.reopen = [&]() -> std::unique_ptr<protocol::Transport> {
+    return left-- > 0 ? std::make_unique<LostLink>(*far.link) : nullptr;
+  };
+  const auto end = drive_attended(robot, tether, [&]() -> tl::expected<void, Failure> {
+    robot.relink(lost);
+    return robot.pump(robot.now() + 1s, [](const RobotMessage&) {});
+  });
+  EXPECT_FALSE(end.stopping.stopped);
+  EXPECT_EQ(end.driven.error().code, ExitCode::LinkLost);
 }
 
 } // namespace
