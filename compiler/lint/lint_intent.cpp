@@ -1,7 +1,7 @@
 #include "base/text/text.h"
 #include "compiler/lint/lint_passes.h"
 
-#include "compiler/analyse/letters.h"
+#include "compiler/analyse/letter_flow.h"
 #include "compiler/analyse/reading.h"
 #include "compiler/text/rules.h"
 #include "spec/colours.h"

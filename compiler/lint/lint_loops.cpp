@@ -1,4 +1,4 @@
-#include "compiler/analyse/letters.h"
+#include "compiler/analyse/letter_flow.h"
 #include "compiler/lint/lint_passes.h"
 
 #include "compiler/text/rules.h"

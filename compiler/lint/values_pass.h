@@ -1,7 +1,7 @@
 #pragma once
 
 #include "base/text/text.h"
-#include "compiler/analyse/letters.h"
+#include "compiler/analyse/letter_flow.h"
 #include "compiler/analyse/range.h"
 #include "compiler/analyse/reading.h"
 #include "compiler/lint/lint_passes.h"

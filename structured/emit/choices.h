@@ -1,6 +1,6 @@
 #pragma once
 
-#include "structured/emit/letters.h"
+#include "structured/emit/letter_allocation.h"
 #include "structured/lower/code.h"
 #include "structured/text/program.h"
 

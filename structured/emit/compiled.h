@@ -1,7 +1,7 @@
 #pragma once
 
 #include "compiler/text/image.h"
-#include "structured/emit/letters.h"
+#include "structured/emit/letter_allocation.h"
 #include "structured/emit/print.h"
 #include "structured/lower/code.h"
 #include "structured/meaning/symbols.h"

@@ -1,4 +1,4 @@
-#include "compiler/analyse/letters.h"
+#include "compiler/analyse/letter_flow.h"
 
 #include <algorithm>
 #include <bit>

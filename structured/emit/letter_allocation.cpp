@@ -1,4 +1,4 @@
-#include "structured/emit/letters.h"
+#include "structured/emit/letter_allocation.h"
 
 #include "spec/limits.h"
 #include "structured/analyse/interference.h"
