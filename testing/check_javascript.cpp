@@ -95,7 +95,8 @@ bool refuse_of_robot(const Expectation& one, const Prepared& program, Lookup& fo
 void refuse_in_room(SuiteFile& file, const TestBall& ball) {
   file.file.diagnostics.push_back(
       finding(rules::JavaScript, ball.program.span,
-              texts::NotOfJavaScript(info(LineWord::Ball).word, ball.program.text)));
+              texts::NotOfJavaScript(info(LineWord::Ball).word, ball.program.text),
+              texts::BallsRunOrbBasic()));
 }
 
 } // namespace orb::testing
