@@ -1,5 +1,7 @@
 #include "cli/commands/robot/checkup.h"
 
+#include "uploader/device_words.h"
+
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
@@ -79,7 +81,7 @@ bool check_node(Checkup& checkup, const Endpoint& endpoint) {
   checkup.good(fmt::format("{} is a device", endpoint.path));
   if (::access(endpoint.path.c_str(), R_OK | W_OK) != 0) {
     checkup.bad(fmt::format("no permission to read and write {}", endpoint.path),
-                "`sudo usermod -aG dialout $USER`, then log in again");
+                uploader::open_help(endpoint, EACCES));
     return false;
   }
   checkup.good("you have permission to read and write it");
