@@ -108,7 +108,7 @@ void place(const Program& program, std::vector<Diagnostic>& findings) {
 /// Runs the passes that need to know all jumps.
 void lint_ways(const Program& program, const Flow& flow, Findings& findings) {
   lint_flow(program, flow, findings);
-  lint_intent(program, flow, findings);
+  lint_effects(program, flow, findings);
   lint_units(program, flow, findings);
   const auto settings = read_settings(program, flow);
   lint_waits(program, flow, settings, findings);

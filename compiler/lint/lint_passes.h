@@ -66,7 +66,7 @@ void lint_flow(const Program& program, const Flow& flow, Findings& findings);
 
 /// Finds programs that run without an error but not as intended: colours and rolls that nobody
 /// sees, a ball left driving.
-void lint_intent(const Program& program, const Flow& flow, Findings& findings);
+void lint_effects(const Program& program, const Flow& flow, Findings& findings);
 
 /// Finds numbers in the wrong unit, and comparisons with a constant result.
 void lint_units(const Program& program, const Flow& flow, Findings& findings);

@@ -1,6 +1,6 @@
 #include "cli/commands/robot/checkup.h"
 
-#include "cli/commands/robot/devices.h"
+#include "cli/commands/robot/serial_ports.h"
 
 #include <algorithm>
 

@@ -3,7 +3,7 @@
 #include "base/duration.h"
 #include "base/text/text.h"
 #include "cli/commands/commands.h"
-#include "cli/commands/robot/devices.h"
+#include "cli/commands/robot/serial_ports.h"
 #include "cli/context/json.h"
 #include "cli/context/save_ball.h"
 #include "cli/terminal/interrupt.h"

@@ -72,9 +72,9 @@ Motion join(Motion a, Motion b) {
 /// Finds programs that run without an error but not as intended: colours and rolls that nobody can
 /// see, a ball that is left driving. Large because it makes three searches: for what is never seen,
 /// what drives on, and what grows without limit.
-class IntentPass {
+class EffectsPass {
 public:
-  IntentPass(const Program& program, const Flow& flow, Findings& findings)
+  EffectsPass(const Program& program, const Flow& flow, Findings& findings)
       : program_(program), flow_(flow), findings_(findings),
         size_(static_cast<std::uint32_t>(flow.code.size())) {}
 
@@ -618,8 +618,8 @@ private:
 
 } // namespace
 
-void lint_intent(const Program& program, const Flow& flow, Findings& findings) {
-  IntentPass(program, flow, findings).run();
+void lint_effects(const Program& program, const Flow& flow, Findings& findings) {
+  EffectsPass(program, flow, findings).run();
 }
 
 } // namespace orb::compiler

@@ -1,4 +1,4 @@
-#include "cli/commands/robot/devices.h"
+#include "cli/commands/robot/serial_ports.h"
 
 #include <algorithm>
 #include <filesystem>
