@@ -84,10 +84,10 @@ public:
       place(i);
     if (!open_.empty() && !open_.back().by_indent && lines_.back().role == Role::Stop &&
         open_.back().begin + 1 < lines_.size())
-      close(lines_.size() - 1, true);
+      close_at(lines_.size() - 1);
     while (!open_.empty() && (open_.back().by_indent || goes_to_the_end(open_.back()))) {
       sure_ = open_.back().by_indent;
-      close(lines_.size(), false);
+      close_above(lines_.size());
     }
     return std::move(found_);
   }
@@ -193,14 +193,14 @@ private:
         !open_.empty() && open_.back().by_indent &&
         line.indent <= lines_[open_.back().begin].indent &&
         !(arm && open_.back().role == Role::If && line.indent == lines_[open_.back().begin].indent))
-      close(i, false);
+      close_above(i);
     switch (line.role) {
     case Role::None:
     case Role::Stop: return;
     case Role::Loop:
       if (line.ends == "do" && !open_.empty() && lines_[open_.back().begin].ends == "do" &&
           fits(open_.back(), line))
-        return close(i, true);
+        return close_at(i);
       [[fallthrough]];
     case Role::If:
     case Role::While:
@@ -219,11 +219,11 @@ private:
       return;
     case Role::Until:
       if (!open_.empty() && open_.back().role == Role::Loop)
-        close(i, true);
+        close_at(i);
       return;
     case Role::End:
       if (!open_.empty() && fits(open_.back(), line))
-        close(i, true);
+        close_at(i);
       return;
     }
   }
@@ -274,11 +274,13 @@ private:
   }
 
   /// Closes the innermost block at line `i`, or above it if the indentation ends it.
-  void close(std::size_t i, bool own_line) {
+  void close_at(std::size_t i) { close(i, i + 1); }
+  void close_above(std::size_t i) { close(i, i); }
+  void close(std::size_t i, std::size_t out) {
+    const bool own_line = i < out;
     const auto block = std::move(open_.back());
     open_.pop_back();
     auto kept = lines_;
-    const auto out = own_line ? i + 1 : i;
     if (block.role == Role::If && own_line)
       write(i, "");
     const bool made = block.role == Role::If ? arms(block, out) : loop(block, i, out, own_line);

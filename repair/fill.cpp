@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <functional>
 #include <numeric>
 
 namespace orb::repair {
@@ -190,7 +191,9 @@ Text dice(const Tokens& from, const Tokens& to, Language language) {
 }
 
 /// A decimal factor as a fraction, or its inverse.
-Text fraction(const Tokens& tokens, bool inverse) {
+enum class Factor : std::uint8_t { Itself, Inverse };
+Text fraction(const Tokens& tokens, Factor factor) {
+  const bool inverse = factor == Factor::Inverse;
   const auto value = tokens.size() == 1 ? thousandths(tokens[0]) : std::nullopt;
   if (!value || *value == 0 || *value % second_ms == 0)
     return std::nullopt;
@@ -302,13 +305,14 @@ Text only(bool applies, std::string text) {
   return applies ? Text(std::move(text)) : std::nullopt;
 }
 
-/// The middle of a range of even length, or half of its length.
-Text half_way(const Holding& held, bool of_length) {
+/// Half of the sum of a range's ends, its middle, or of their difference; its length is even.
+template <typename Combine>
+Text half_of(const Holding& held, Combine combine) {
   const auto from = whole(held.a);
   const auto to = whole(held.b);
   if (!from || !to || *from >= *to || (*to - *from) % 2 != 0)
     return std::nullopt;
-  return std::to_string(of_length ? (*to - *from) / 2 : (*to + *from) / 2);
+  return std::to_string(combine(*to, *from) / 2);
 }
 
 Text bearing(const Tokens& a) {
@@ -454,11 +458,11 @@ constexpr auto functions = std::to_array<Function>({
                   ? Text(std::to_string(full_circle - *value))
                   : std::nullopt;
      }},
-    {"middle", [](const Holding& held) { return half_way(held, false); }},
+    {"middle", [](const Holding& held) { return half_of(held, std::plus()); }},
     {"using", [](const Holding& held) { return print_using(held.a, held.b); }},
-    {"half", [](const Holding& held) { return half_way(held, true); }},
-    {"ratio", [](const Holding& held) { return fraction(held.a, false); }},
-    {"inverse", [](const Holding& held) { return fraction(held.a, true); }},
+    {"half", [](const Holding& held) { return half_of(held, std::minus()); }},
+    {"ratio", [](const Holding& held) { return fraction(held.a, Factor::Itself); }},
+    {"inverse", [](const Holding& held) { return fraction(held.a, Factor::Inverse); }},
     {"thousands", thousands},
     {"zero", [](const Holding& held) { return held.a.empty() ? Text("0") : Text(join(held.a)); }},
 

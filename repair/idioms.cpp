@@ -239,7 +239,7 @@ std::optional<Foreign> find_foreign(std::string_view text, Language language,
   if (tokens.size() > most_tokens)
     return std::nullopt;
   const MatchedLine line(tokens);
-  Matcher matcher(line, tokens.size(), false);
+  Matcher matcher(line);
   std::size_t begin = tokens.size();
   std::size_t end = 0;
   std::size_t best = 0;
@@ -421,14 +421,14 @@ void rewrite(const Tokens& line, const Surroundings& around,
     };
     if (pattern.idiom != nullptr && pattern.idiom->where == Where::Line) {
       for (const auto& [begin, end] : statements) {
-        Matcher matcher(all, end, true);
+        Matcher matcher(all, end);
         if (end > begin && begins(begin) && matcher.match(pattern, begin) == end &&
             use(matcher, begin, end))
           return;
       }
       continue;
     }
-    Matcher matcher(all, line.size(), false);
+    Matcher matcher(all);
     for (std::size_t begin = 0; begin < line.size(); ++begin) {
       const auto end = begins(begin) ? matcher.match(pattern, begin) : 0;
       if (end > begin && use(matcher, begin, end))
@@ -475,7 +475,7 @@ std::string word_at(const Tokens& line, std::size_t at) {
   if (at >= line.size())
     return {}; // `_` contains no word
   const MatchedLine all(line);
-  Matcher matcher(all, line.size(), false);
+  Matcher matcher(all);
   std::size_t farthest = at;
   std::string_view meaning = line[at].text;
   for (const auto& pattern : patterns_of(Language::Structured).all) {
@@ -543,7 +543,7 @@ Message advise(const Tokens& line, const Surroundings& around) {
   const MatchedLine all(line);
   for (const auto& [text, patterns] : all_hints[static_cast<std::size_t>(around.language)])
     for (const auto& pattern : patterns) {
-      Matcher matcher(all, line.size(), true);
+      Matcher matcher(all, line.size());
       if (matcher.match(pattern, 0) != line.size())
         continue;
       if (auto fillers = fill_each(pattern.meaning, matcher.holes(), around))

@@ -64,8 +64,12 @@ struct MatchedLine {
 /// Matches a pattern against the tokens of a line.
 class Matcher {
 public:
-  Matcher(const MatchedLine& line, std::size_t end, bool whole)
-      : line_(line), tokens_(line.tokens), end_(end), whole_(whole) {}
+  /// A match may end anywhere.
+  explicit Matcher(const MatchedLine& line)
+      : line_(line), tokens_(line.tokens), end_(line.tokens.size()), whole_(false) {}
+  /// A match ends at `end`.
+  Matcher(const MatchedLine& line, std::size_t end)
+      : line_(line), tokens_(line.tokens), end_(end), whole_(true) {}
 
   /// The end of a match that begins at `at`; 0 if there is none.
   std::size_t match(const Pattern& pattern, std::size_t at) {

@@ -93,7 +93,8 @@ private:
   bool ends_sub(std::uint32_t line) const;
 
   /// Words of other lines, either one-letter or longer ones.
-  std::vector<std::string_view> others(const Tokens& line, bool letters) const;
+  enum class Words : std::uint8_t { Letters, Longer };
+  std::vector<std::string_view> others(const Tokens& line, Words wanted) const;
 
   struct Sub {
     std::string name;

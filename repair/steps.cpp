@@ -604,7 +604,8 @@ Next in_milliseconds(Trial& trial) {
     return Next::GoOn;
   const auto& best = trial.best()->text;
   const auto offer = [&](std::string text) {
-    trial.other() = trial.check({std::move(text), 0, trial.best()->note, false});
+    trial.other() =
+        trial.check({.text = std::move(text), .why = trial.best()->note, .sure = false});
     return Next::GoOn;
   };
   constexpr std::string_view in_seconds = " * 1000";

@@ -88,7 +88,8 @@ std::optional<Accepted> Trial::check(const Candidate& candidate) {
 }
 
 void Trial::offer_other(const std::string& statement) {
-  other_ = check({line_.with(statement), 0, best_ ? best_->note : nullptr, false});
+  other_ =
+      check({.text = line_.with(statement), .why = best_ ? best_->note : nullptr, .sure = false});
 }
 
 std::optional<Accepted> Trial::look(const Candidate& candidate) {
@@ -211,7 +212,7 @@ std::string Trial::declared_otherwise(const std::string& statement) const {
 
 void Trial::offer_declared_otherwise(const std::string& statement) {
   if (const auto other = declared_otherwise(statement); !other.empty())
-    offer_lines({line_.with(other), 0, nullptr, false});
+    offer_lines({.text = line_.with(other), .sure = false});
 }
 
 void Trial::explore_rows(const std::string& statement, Bounds bounds,
