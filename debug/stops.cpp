@@ -95,7 +95,8 @@ bool Debugger::command() {
   bool stop = hit_values();
   if (const auto spot = sources_.spot(place.id, place.command))
     stop = hit_place(*spot) || stop;
-  return steps_here(Thread::Macro, depth(Thread::Macro), true) || stop;
+  constexpr bool begins = true; // each command is a step of its own
+  return steps_here(Thread::Macro, depth(Thread::Macro), begins) || stop;
 }
 
 bool Debugger::motion(Duration t) {

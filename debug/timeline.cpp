@@ -129,7 +129,7 @@ Timeline::Reached Timeline::advance(Search& search) {
   search_ = &search;
   const auto reached = advance_to_bound(search);
   if (search.gather_to && search.hit)
-    resolve(*search.hit, false);
+    resolve(*search.hit, At::End);
   search_ = nullptr;
   return reached;
 }
@@ -267,7 +267,7 @@ Halt Timeline::search_forward(Search& search) {
     settle();
     voice_.speaks = false;
     if (instant() > *search.hit)
-      go_to({step(), false, *search.hit});
+      go_to({.step = step(), .at = *search.hit});
   }
   return Halt::Found;
 }

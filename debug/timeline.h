@@ -184,7 +184,7 @@ private:
   void on_step(Instant at, const vm::Body& body) override;
   std::int64_t lines() override;
   bool command() override;
-  bool may_begin(bool is_line);
+  bool may_begin(Next what);
 
   std::uint64_t step() const { return ball_->machine().lines_of_all() + commands_; }
   Copy copy() const;
@@ -201,7 +201,8 @@ private:
   bool apply(const Edit& edit);
   void settle();
   void hit(Instant at);
-  void resolve(Instant at, bool about_to);
+  enum class At : std::uint8_t { NextStep, End };
+  void resolve(Instant at, At what);
 
   std::span<const run::Input> inputs_;
   const run::Options& options_;

@@ -73,7 +73,7 @@ void Timeline::copy_near(const Moment& moment) {
     return;
   restore(base);
   Search search;
-  search.bound = Moment{moment.step - near_steps, true, {}};
+  search.bound = Moment{.step = moment.step - near_steps, .about_to = true};
   run(search);
   near_ = std::make_unique<Copy>(copy());
 }

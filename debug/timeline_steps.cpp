@@ -14,7 +14,7 @@ constexpr std::int64_t lines_at_once = 1 << 20;
 } // namespace
 
 std::int64_t Timeline::lines() {
-  if (!may_begin(true))
+  if (!may_begin(Next::Line))
     return 0;
   if (search_->watch != nullptr && search_->watch->wants_lines())
     return 1;
@@ -25,18 +25,19 @@ std::int64_t Timeline::lines() {
 }
 
 bool Timeline::command() {
-  if (!may_begin(false))
+  if (!may_begin(Next::Command))
     return false;
   ++commands_;
   return true;
 }
 
-bool Timeline::may_begin(bool is_line) {
+bool Timeline::may_begin(Next what) {
+  const bool is_line = what == Next::Line;
   if (search_ == nullptr)
     return false;
   auto& search = *search_;
   if (search.gather_to && search.hit)
-    resolve(is_line ? ball_->machine().now() : ball_->now(), true);
+    resolve(is_line ? ball_->machine().now() : ball_->now(), At::NextStep);
   if (search.bound && step() >= search.bound->step) {
     search.at_bound = true;
     return false;
@@ -49,7 +50,7 @@ bool Timeline::may_begin(bool is_line) {
   if (watch == nullptr || !(is_line ? watch->wants_lines() && watch->line() : watch->command()))
     return true;
   if (search.gather_to) {
-    search.note({step(), true, {}});
+    search.note({.step = step(), .about_to = true});
     return true;
   }
   search.found = true;
@@ -89,7 +90,7 @@ void Timeline::hit(Instant at) {
   if (search.gather_to) {
     const bool waits = !ball_->basic_running() || ball_->machine().waits();
     if (search.hit && *search.hit < at && waits)
-      search.note({step(), false, *search.hit});
+      search.note({.step = step(), .at = *search.hit});
     search.hit = at;
   } else if (!search.hit) {
     search.hit = at;
@@ -98,13 +99,13 @@ void Timeline::hit(Instant at) {
 }
 
 /// A find whose place was open: at `at` the next step begins, or the search ends.
-void Timeline::resolve(Instant at, bool about_to) {
+void Timeline::resolve(Instant at, At what) {
   auto& search = *search_;
   const auto found = *std::exchange(search.hit, std::nullopt);
-  if (at > found || (!about_to && (!ball_->basic_running() || ball_->machine().waits())))
-    search.note({step(), false, found});
+  if (at > found || (what == At::End && (!ball_->basic_running() || ball_->machine().waits())))
+    search.note({.step = step(), .at = found});
   else
-    search.note({step(), true, {}});
+    search.note({.step = step(), .about_to = true});
 }
 
 } // namespace orb::debug

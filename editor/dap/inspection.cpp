@@ -114,17 +114,18 @@ Answer Session::scopes(const Json& arguments) {
   if (auto there = check_frame(arguments); !there)
     return refuse(there.error());
   auto list = Json::array();
-  const auto add = [&](const char* name, std::int64_t reference, bool expensive) {
+  const auto add = [&](const char* name, std::int64_t reference) {
+    const bool expensive = reference == Sensors || reference == Limits; // not opened unasked
     list.push_back({{"name", name}, {"variablesReference", reference}, {"expensive", expensive}});
   };
   if (debugger->sources().input(debugger->timeline().ball().basic_area()) != nullptr) {
-    add("Variables", Variables, false);
+    add("Variables", Variables);
     if (!debugger->arrays().empty())
-      add("Arrays", Arrays, false);
+      add("Arrays", Arrays);
   }
-  add("Ball", Ball, false);
-  add("Sensors", Sensors, true);
-  add("Loops and limits", Limits, true);
+  add("Ball", Ball);
+  add("Sensors", Sensors);
+  add("Loops and limits", Limits);
   return Json{{"scopes", std::move(list)}};
 }
 

@@ -40,7 +40,8 @@ Answer callables(const Workspace& space, const Asked& asked) {
                : Json();
 }
 
-Answer calls(const Workspace& space, const Json& params, bool incoming) {
+Answer calls(const Workspace& space, const Json& params, Related wanted) {
+  const bool incoming = wanted == Related::Callers;
   const auto& data = member(member(params, "item"), "data");
   const auto uri = text_of(member(data, "root"));
   const auto name = text_of(member(data, "name"));

@@ -284,11 +284,11 @@ Answer LanguageServer::Impl::symbols_of_all(const Json& params) {
 }
 
 Answer LanguageServer::Impl::incoming_calls(const Json& params) {
-  return calls(space, params, true);
+  return calls(space, params, Related::Callers);
 }
 
 Answer LanguageServer::Impl::outgoing_calls(const Json& params) {
-  return calls(space, params, false);
+  return calls(space, params, Related::Callees);
 }
 
 void LanguageServer::Impl::exit(const Json&) {

@@ -60,7 +60,8 @@ Answer lenses(const Workspace& space, const Asked& asked);
 Answer callables(const Workspace& space, const Asked& asked);
 
 /// The callers of an item from `callables`, or what it calls.
-Answer calls(const Workspace& space, const Json& params, bool incoming);
+enum class Related : std::uint8_t { Callers, Callees };
+Answer calls(const Workspace& space, const Json& params, Related wanted);
 
 /// The outlines of open documents, then of files in the open folders.
 Answer workspace_symbols(const Workspace& space, const std::string& query);

@@ -7,8 +7,8 @@
 namespace orb::editor {
 namespace {
 
-Json locations(const Workspace& space, const Asked& asked, const Occurrences& names,
-               bool definitions, bool uses) {
+enum class Shown : std::uint8_t { Definitions, Uses, All };
+Json locations(const Workspace& space, const Asked& asked, const Occurrences& names, Shown shown) {
   auto list = Json::array();
   auto places = space.ruler(asked.document.source);
   const auto add = [&](bool wanted, const std::vector<Span>& spans) {
@@ -16,10 +16,10 @@ Json locations(const Workspace& space, const Asked& asked, const Occurrences& na
       for (const auto span : spans)
         list.push_back({{"uri", asked.uri}, {"range", space.range(places, span)}});
   };
-  add(definitions, names.definitions);
-  add(uses, names.uses);
+  add(shown != Shown::Uses, names.definitions);
+  add(shown != Shown::Definitions, names.uses);
   for (const auto& place : names.elsewhere)
-    if (place.defines ? definitions : uses)
+    if (shown != (place.defines ? Shown::Uses : Shown::Definitions))
       list.push_back({{"uri", space.uri_of(*place.source)},
                       {"range", space.range(*place.source, place.span)}});
   return list;
@@ -31,7 +31,7 @@ Answer definition(const Workspace& space, const Asked& asked) {
   const auto& source = asked.document.source;
   return locations(space, asked,
                    asked.document.language->occurrences(source, asked.at, space.surroundings()),
-                   true, false);
+                   Shown::Definitions);
 }
 
 Answer references(const Workspace& space, const Asked& asked) {
@@ -40,7 +40,7 @@ Answer references(const Workspace& space, const Asked& asked) {
   const auto closed = space.closed_programs(asked.document);
   const auto all = space.surroundings(closed);
   return locations(space, asked, asked.document.language->occurrences(source, asked.at, all),
-                   !declared.is_boolean() || declared.get<bool>(), true);
+                   !declared.is_boolean() || declared.get<bool>() ? Shown::All : Shown::Uses);
 }
 
 Answer highlight(const Workspace& space, const Asked& asked) {

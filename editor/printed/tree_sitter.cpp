@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <functional>
 #include <initializer_list>
 #include <string>
 
@@ -123,20 +124,17 @@ module.exports = grammar({
 )js";
 
 std::string basic_grammar() {
-  const auto controls = [](bool wanted) {
-    return of_forms(plain_forms, [wanted](const spec::StatementInfo& row) {
-      return directs_the_flow(row) == wanted;
-    });
-  };
   return fmt::format("// orbBasic as the robot reads it: a number and a statement on each line.\n"
                      "// {}\n\n",
                      printed) +
          list("lets", of_form(Form::Assignment)) + list("ifs", of_form(Form::Conditional)) +
          list("fors", of_form(Form::Loop)) + list("nexts", of_form(Form::LoopEnd)) +
          list("jumps", of_form(Form::Branch)) + list("ons", of_form(Form::IndexedBranch)) +
-         list("prints", of_form(Form::Output)) + list("actions", controls(false)) +
-         list("controls", controls(true)) + list("functions", function_words()) +
-         list("variables", variable_words()) + signs() + std::string(basic_rules);
+         list("prints", of_form(Form::Output)) +
+         list("actions", of_forms(plain_forms, std::not_fn(directs_the_flow))) +
+         list("controls", of_forms(plain_forms, directs_the_flow)) +
+         list("functions", function_words()) + list("variables", variable_words()) + signs() +
+         std::string(basic_rules);
 }
 
 // ---- structured orbBasic
@@ -240,13 +238,14 @@ bool is_keyword(std::string_view word) {
   return structured::find_word(word).kind == structured::WordKind::Keyword;
 }
 
-/// The robot's statements in structured programs, with or without the ones in `ruled`.
-Words structured_statements(bool with_rules) {
-  return words_of(spec::statements, [with_rules](const spec::StatementInfo& row) {
+/// The robot's statements in structured programs: the ones in `ruled`, or the others.
+enum class Rule : std::uint8_t { Own, Common };
+Words structured_statements(Rule rule) {
+  return words_of(spec::statements, [rule](const spec::StatementInfo& row) {
     const bool has_rule = std::find(ruled.begin(), ruled.end(), row.statement) != ruled.end();
     const bool foreign = row.form == Form::Branch || row.form == Form::IndexedBranch;
     const bool known = structured::find_word(row.word).kind == structured::WordKind::Statement;
-    return known && has_rule == with_rules && (has_rule || !foreign);
+    return known && has_rule == (rule == Rule::Own) && (has_rule || !foreign);
   });
 }
 
@@ -260,8 +259,9 @@ Words structured_functions() {
 
 std::string structured_grammar() {
   return fmt::format("// Structured orbBasic: names, blocks and subs.\n// {}\n\n", printed) +
-         list("actions", structured_statements(false)) + list("functions", structured_functions()) +
-         list("variables", variable_words()) + signs() + std::string(structured_rules);
+         list("actions", structured_statements(Rule::Common)) +
+         list("functions", structured_functions()) + list("variables", variable_words()) + signs() +
+         std::string(structured_rules);
 }
 
 // ---- macros
@@ -333,7 +333,7 @@ std::string basic_highlights() {
 }
 
 std::string structured_highlights() {
-  auto keywords = structured_statements(true);
+  auto keywords = structured_statements(Rule::Own);
   std::erase(keywords, "print");
   for (const auto& row : structured::keywords)
     if (is_keyword(row.word) && !structured::is_function(structured::find_word(row.word)))

@@ -134,11 +134,12 @@ std::optional<std::string> word_markdown(std::string_view word) {
   return std::nullopt;
 }
 
+enum class Use : std::uint8_t { Set, Read };
 std::string in_lines(const Source& source, const Program& program,
-                     const std::vector<LetterName>& names, std::uint8_t letter, bool is_set) {
+                     const std::vector<LetterName>& names, std::uint8_t letter, Use use) {
   std::vector<std::uint32_t> numbers;
   for (const auto& name : names) {
-    if (name.letter != letter || name.is_set != is_set)
+    if (name.letter != letter || name.is_set != (use == Use::Set))
       continue;
     const auto& line = program.lines[std::min<std::size_t>(
         source.position(name.span.begin).line - 1, program.lines.size() - 1)];
@@ -150,8 +151,8 @@ std::string in_lines(const Source& source, const Program& program,
 
 std::string letter_markdown(const Source& source, const Program& program,
                             const std::vector<LetterName>& names, std::uint8_t letter) {
-  const auto set = in_lines(source, program, names, letter, true);
-  const auto read = in_lines(source, program, names, letter, false);
+  const auto set = in_lines(source, program, names, letter, Use::Set);
+  const auto read = in_lines(source, program, names, letter, Use::Read);
   const auto what =
       letter == indexed_letter
           ? std::string(

@@ -134,10 +134,11 @@ Occurrences occurrences(const Source& source, std::uint32_t offset,
 // ---- hover
 
 /// `in lines 2, 5`; lines of other files carry their name: `in lines 2, lib.orb:5`.
-std::string lines_where(const Part& part, bool is_set) {
+enum class Use : std::uint8_t { Set, Read };
+std::string lines_where(const Part& part, Use wanted) {
   std::vector<std::string> lines;
   for (const auto& use : part.uses) {
-    if (!(use.meaning == part.here->meaning) || use.is_set != is_set)
+    if (!(use.meaning == part.here->meaning) || use.is_set != (wanted == Use::Set))
       continue;
     const auto place = part.reading.place(use.span);
     if (!place)
@@ -165,7 +166,7 @@ std::string variable_markdown(const Source& source, const Part& part,
                                                              : "0 when the program begins";
   auto text = fmt::format("**`{}`** ({}): a 32-bit integer, {}\n\n- set: {}\n- read: {}\n",
                           part.reading.program.name(symbol.name), kind, begins,
-                          lines_where(part, true), lines_where(part, false));
+                          lines_where(part, Use::Set), lines_where(part, Use::Read));
   if (part.file != 0)
     return text; // the including program assigns its letter
   const auto letters = letters_of(compile_structured(source, options));
@@ -192,7 +193,7 @@ std::string name_markdown(const Source& source, const Part& part, const Language
   const auto& meaning = part.here->meaning;
   if (meaning.symbol == none)
     return fmt::format("**`{}`** (label): jumps to it: {}\n",
-                       part.reading.program.name(meaning.name), lines_where(part, false));
+                       part.reading.program.name(meaning.name), lines_where(part, Use::Read));
   const auto& symbol = part.reading.names.symbols[meaning.symbol];
   switch (symbol.kind) {
   case SymbolKind::Variable:

@@ -50,10 +50,11 @@ private:
     const auto routine = names_.routine_of[i];
     if (statement.kind == Kind::Label || statement.kind == Kind::Goto)
       add_label({none, routine, statement.name}, statement);
-    else if (statement.kind == Kind::Call)
-      add(names_.of_statement[i], statement.name_span, false);
-    else if (statement.name != none)
-      add(declared_by(i, statement.name), statement.name_span, true);
+    else if (statement.name != none) {
+      const bool declares = statement.kind != Kind::Call;
+      add(declares ? declared_by(i, statement.name) : names_.of_statement[i], statement.name_span,
+          declares);
+    }
     for (const auto& item : program_.items_of(statement)) {
       if (item.kind == ItemKind::Name)
         add(declared_by(i, item.value), item.span, statement.kind != Kind::Robot);
