@@ -220,6 +220,7 @@ Command command_of(const Tokens& line) {
   std::uint32_t best_used = 0; // one bit per part
   bool sure = true;
   bool tied = false;
+  enum class By : std::uint8_t { Name, Parts };
   // True if every used word is used whole and the words before it mean nothing.
   const auto leaves_nothing = [&](std::uint32_t used) {
     for (std::size_t i = 0; i < parts.size(); ++i) {
@@ -232,17 +233,17 @@ Command command_of(const Tokens& line) {
     }
     return true;
   };
-  const auto take = [&](const MacroCommandInfo* info, std::uint32_t used, bool surely) {
+  const auto take = [&](const MacroCommandInfo* info, std::uint32_t used, By by) {
     const auto more = std::popcount(used) - std::popcount(best_used);
     if (info == nullptr || info == best || more < 0 || !leaves_nothing(used))
       return;
     if (more == 0 && best != nullptr) {
-      tied = tied || surely == sure;
+      tied = tied || (by == By::Name) == sure;
       return;
     }
     best = info;
     best_used = used;
-    sure = surely;
+    sure = by == By::Name;
     tied = false;
   };
   const auto first_value = std::find_if(line.begin(), line.end(), [](const Token& token) {
@@ -256,7 +257,7 @@ Command command_of(const Tokens& line) {
     std::string words;
     for (auto end = from; end < heads; ++end) {
       words += (words.empty() ? "" : "_") + parts[end].text;
-      take(command_called(words), ((2U << end) - 1U) & ~((1U << from) - 1U), true);
+      take(command_called(words), ((2U << end) - 1U) & ~((1U << from) - 1U), By::Name);
     }
     if (!says_nothing(parts[from]))
       break;
@@ -271,7 +272,7 @@ Command command_of(const Tokens& line) {
           break;
         }
     if (named.size() > 1 && std::popcount(used) == static_cast<int>(named.size()))
-      take(&info, used, false);
+      take(&info, used, By::Parts);
   }
   if (best == nullptr || tied)
     return {};

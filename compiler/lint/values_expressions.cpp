@@ -32,7 +32,7 @@ void ValuesPass::compute(std::uint32_t begin, std::uint32_t end) {
     case NodeKind::Indexed:
       if (!following_)
         check_index(node.span);
-      know(n, {}, false);
+      known_[n] = {};
       break;
     case NodeKind::System: {
       const auto& row = spec::variables[node.what];

@@ -27,14 +27,14 @@ std::vector<std::string_view> statement_words() {
   return all;
 }
 
-/// The names of variables: those that can be assigned, or all, with functions.
-std::vector<std::string_view> names(bool to_set) {
+/// The names of variables that can be assigned, or of all that can be read, with functions.
+std::vector<std::string_view> names(spec::Access access) {
   std::vector<std::string_view> all;
   for (const auto& row : spec::variables)
-    if (!to_set || row.access == spec::Access::ReadWrite)
+    if (access == spec::Access::Read || row.access == access)
       all.push_back(row.word);
   for (const auto& row : spec::functions)
-    if (!to_set)
+    if (access == spec::Access::Read)
       all.push_back(row.word);
   return all;
 }
@@ -159,7 +159,7 @@ private:
     if (next < line_.span.end && text_[next] == '=')
       return finding(rules::UnknownStatement, {fault_.span.begin, end},
                      texts::NotAVariable(program_.text_of({fault_.span.begin, end})),
-                     spelled(names(true)));
+                     spelled(names(spec::Access::ReadWrite)));
     const auto best = closest(token_, statement_words());
     if (best && equal_words(*best, token_))
       return make(rules::UnknownStatement, texts::NotAStatementCase(token_), texts::Write(*best));
@@ -207,7 +207,7 @@ private:
   /// An unknown word inside an expression.
   Diagnostic unknown_name() const {
     return make(rules::SyntaxError, texts::NeitherVariableNorFunction(token_),
-                spelled(names(false)));
+                spelled(names(spec::Access::Read)));
   }
 
   Diagnostic bad_operator(Span span) const {

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <bit>
 #include <cstring>
+#include <type_traits>
 #include <utility>
 
 namespace orb::compiler {
@@ -170,8 +171,8 @@ ORB_MATCH(arguments) {
 
 /// Parses a branch up to `End`. A branch that does not parse ends at `else` (only a `then` branch)
 /// or at the end of the line, and stores the robot's error.
-template <typename End, bool StopsAtElse, apply_mode A, rewind_mode M,
-          template <typename...> class Action, template <typename...> class Control, typename Input>
+template <typename End, apply_mode A, rewind_mode M, template <typename...> class Action,
+          template <typename...> class Control, typename Input>
 bool match_branch(Input& in, Builder& builder) {
   const char* const begin = in.current();
   builder.branch(begin, [&](const Builder::Mark& mark) {
@@ -186,7 +187,8 @@ bool match_branch(Input& in, Builder& builder) {
       const auto at_else = [&](const char* p) {
         constexpr std::string_view word = "else";
         const auto left = static_cast<std::size_t>(in.end() - p);
-        return StopsAtElse && left >= word.size() && std::string_view(p, word.size()) == word &&
+        return std::is_same_v<End, then_end> && left >= word.size() &&
+               std::string_view(p, word.size()) == word &&
                (left == word.size() || !is_letter(p[word.size()])) &&
                (p == begin || !is_letter(p[-1]));
       };
@@ -201,11 +203,11 @@ bool match_branch(Input& in, Builder& builder) {
 }
 
 ORB_MATCH(then_branch) {
-  return match_branch<then_end, true, A, M, Action, Control>(in, builder);
+  return match_branch<then_end, A, M, Action, Control>(in, builder);
 }
 
 ORB_MATCH(else_branch) {
-  return match_branch<line_end, false, A, M, Action, Control>(in, builder);
+  return match_branch<line_end, A, M, Action, Control>(in, builder);
 }
 
 /// `word` is the word at this position, with `length` letters.

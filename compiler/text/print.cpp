@@ -265,8 +265,8 @@ private:
       switch (node(i).kind) {
       case NodeKind::Binary: {
         const auto level = spec::operators[node(i).what].level;
-        drop_operand(node(i - 1).first - 1, level, false);
-        drop_operand(i - 1, level, true);
+        drop_operand(node(i - 1).first - 1, level, Side::Left);
+        drop_operand(i - 1, level, Side::Right);
         break;
       }
       case NodeKind::Group:
@@ -290,7 +290,8 @@ private:
       drop(node(index));
   }
 
-  void drop_operand(std::uint32_t index, spec::Level level, bool right) {
+  enum class Side : std::uint8_t { Left, Right };
+  void drop_operand(std::uint32_t index, spec::Level level, Side side) {
     if (node(index).kind != NodeKind::Group)
       return;
     const auto content = inside(index);
@@ -298,7 +299,7 @@ private:
       return;
     if (node(content).kind == NodeKind::Binary) {
       const auto inner = spec::operators[node(content).what].level;
-      if (right ? inner <= level : inner < level)
+      if (side == Side::Right ? inner <= level : inner < level)
         return;
     }
     drop(node(index));

@@ -466,7 +466,8 @@ private:
   void end_at_once() {
     tidy(code_);
     const auto at = lines_of_labels(code_);
-    const auto lead_on = [&](CodeLine& line, bool in_branch) {
+    enum class Where : std::uint8_t { Alone, InBranch };
+    const auto lead_on = [&](CodeLine& line, Where where) {
       if (line.kind != LineKind::Goto || at[line.label] == none)
         return;
       const auto target = past_labels(at[line.label]);
@@ -474,18 +475,18 @@ private:
         return;
       const auto& last = code_.lines[target];
       if (last.kind != LineKind::Return && last.kind != LineKind::Goto &&
-          (!ends_program(last) || (in_branch && !fits_branch(last))))
+          (!ends_program(last) || (where == Where::InBranch && !fits_branch(last))))
         return;
       const auto origin = line.origin;
       line = last;
       line.origin = origin;
     };
     for (auto& line : code_.lines) {
-      lead_on(line, false);
+      lead_on(line, Where::Alone);
       if (line.kind == LineKind::Choice)
         for (const auto branch : {line.term, line.end})
           if (branch != none)
-            lead_on(code_.branches[branch], true);
+            lead_on(code_.branches[branch], Where::InBranch);
     }
   }
 

@@ -290,12 +290,13 @@ private:
     std::uint32_t from = none;
     std::uint32_t to = none;
   };
-  std::optional<Crossing> last_crossing(std::uint32_t first, std::uint32_t last, bool in) const {
+  enum class Way : std::uint8_t { In, Out };
+  std::optional<Crossing> last_crossing(std::uint32_t first, std::uint32_t last, Way way) const {
     const auto within = [&](std::uint32_t step) { return first <= step && step <= last; };
     for (auto at = here_; states_[at].from != none; at = states_[at].from) {
       const auto from = states_[states_[at].from].state.step;
       const auto to = states_[at].state.step;
-      if (within(from) != within(to) && within(to) == in && !calls(from) &&
+      if (within(from) != within(to) && within(to) == (way == Way::In) && !calls(from) &&
           !is(from, spec::Statement::Return))
         return Crossing{from, to};
     }
@@ -313,7 +314,7 @@ private:
   std::optional<Crossing> way_out_of_loop(const PathState& state) const {
     const auto loop = state.loops[state.loop_depth - 1];
     const auto last = next_below(loop);
-    return last == none ? std::nullopt : last_crossing(loop, last, false);
+    return last == none ? std::nullopt : last_crossing(loop, last, Way::Out);
   }
 
   void blame(std::uint32_t step, Message message, Message help) {
@@ -341,7 +342,7 @@ private:
       if (const auto out = way_out_of_loop(state))
         return blame_way_out(state, out->from, texts::TheNext(name), BasicError::NextWithoutFor);
     } else if (is(loop, spec::Statement::For)) {
-      if (const auto in = last_crossing(loop, state.step, true); in && in->to != loop)
+      if (const auto in = last_crossing(loop, state.step, Way::In); in && in->to != loop)
         return blame(in->from,
                      texts::EntersLoop(number_of(loop), name, number_of(state.step),
                                        stops_with(BasicError::NextWithoutFor)),
@@ -372,8 +373,8 @@ private:
   void stop_at_return(const PathState& state) {
     const auto called = called_steps();
     const auto above = std::upper_bound(called.begin(), called.end(), state.step);
-    const auto in =
-        above == called.begin() ? std::nullopt : last_crossing(*std::prev(above), state.step, true);
+    const auto in = above == called.begin() ? std::nullopt
+                                            : last_crossing(*std::prev(above), state.step, Way::In);
     if (!in)
       return stop(state, texts::NoGosub(stops_with(BasicError::ReturnWithoutGosub)),
                   texts::EndAbove());

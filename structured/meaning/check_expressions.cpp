@@ -181,9 +181,9 @@ bool Checker::names_unknown(std::uint32_t root) const {
 void Checker::check_node(const Statement& statement, std::uint32_t n, bool is_root) {
   const auto& node = program_.nodes[n];
   check_number(n, is_root);
-  if (node.kind == NodeKind::System)
-    check_version(node.span, spec::variables[node.what].word, spec::variables[node.what].since,
-                  spec::variables[node.what].old_word == program_.text_of(node.span));
+  if (node.kind == NodeKind::System &&
+      spec::variables[node.what].old_word != program_.text_of(node.span))
+    check_version(node.span, spec::variables[node.what].word, spec::variables[node.what].since);
   if (node.kind == NodeKind::Element)
     check_index(n);
   if (node.kind == NodeKind::Relation)
@@ -355,9 +355,8 @@ void Checker::check_index(std::uint32_t n) {
            texts::HasElements(program_.name(symbol.name), 1, symbol.value, value->value));
 }
 
-void Checker::check_version(Span span, std::string_view word, spec::BasicVersion since,
-                            bool old_name) {
-  if (since > target_.version && !old_name)
+void Checker::check_version(Span span, std::string_view word, spec::BasicVersion since) {
+  if (since > target_.version)
     report(compiler::rules::NewerThanTarget, span,
            compiler::texts::NeedsVersion(word, spec::info(since).text,
                                          spec::info(target_.version).text));

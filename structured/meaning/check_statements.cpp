@@ -58,7 +58,7 @@ void Checker::check_robot(const Statement& statement) {
   // With two values `goroll` has its older form; the check of the robot's lines covers its go
   // value.
   if (statement.robot != spec::Statement::Goroll || size(statement) == row.parameters().size())
-    check_version(statement.word, row.word, row.since, false);
+    check_version(statement.word, row.word, row.since);
   if (statement.robot == spec::Statement::Data) {
     check_data(statement);
     return;

@@ -86,7 +86,7 @@ private:
 
   void check_index(std::uint32_t n);
 
-  void check_version(Span span, std::string_view word, spec::BasicVersion since, bool old_name);
+  void check_version(Span span, std::string_view word, spec::BasicVersion since);
 
   // ---- placement of statements
 
