@@ -43,8 +43,9 @@ struct TraceOf {
   bool sources = false; ///< CSV has a column of source places: some program has them
 };
 
-/// Returns the CSV header for the balls of a room. Empty for JSON.
-std::string room_trace_head(TraceFormat format, bool sources);
+/// Returns the CSV header for the balls of a room, with or without the column of source places.
+/// Empty for JSON.
+std::string room_trace_head(TraceFormat format, bool sources = false);
 
 /// Keep: the trace includes the event of every line.
 enum class TraceLines : std::uint8_t { Leave, Keep };

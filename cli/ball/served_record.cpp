@@ -85,7 +85,7 @@ tl::expected<void, IoError> ServedRecord::open() {
           "cannot write {}: {}", disk::display_name(options_.trace_out), std::strerror(errno))});
   }
   if (options_.trace && options_.count > 1)
-    put(report::room_trace_head(*options_.trace, false));
+    put(report::room_trace_head(*options_.trace));
   return {};
 }
 

@@ -26,7 +26,9 @@ public:
     if (console.format_)
       trace_.emplace(
           *console.format_, lines, ball.inputs,
-          [this](std::string_view text) { console_.tell(t_, rank_, std::string(text), true); },
+          [this](std::string_view text) {
+            console_.tell(t_, rank_, std::string(text), From::Trace);
+          },
           report::TraceOf{name_, sources});
   }
 
@@ -59,7 +61,8 @@ private:
     line_ += text;
     for (std::size_t end = 0; (end = line_.find('\n')) != std::string::npos;
          line_.erase(0, end + 1))
-      console_.tell(t_, rank_, fmt::format("{}: {}", name_, line_.substr(0, end + 1)), false);
+      console_.tell(t_, rank_, fmt::format("{}: {}", name_, line_.substr(0, end + 1)),
+                    From::Program);
   }
 
   RoomConsole& console_;
@@ -81,7 +84,7 @@ RoomConsole::RoomConsole(const RunOptions& options, std::vector<const run::RoomB
     ears_.push_back(std::make_unique<Ear>(*this, *ball, static_cast<std::size_t>(rank), sources));
   }
   if (format_)
-    put({{}, 0, report::room_trace_head(*format_, sources), true});
+    put({{}, 0, report::room_trace_head(*format_, sources), From::Trace});
 }
 
 RoomConsole::~RoomConsole() = default;
@@ -99,8 +102,8 @@ tl::expected<void, IoError> RoomConsole::finish(const std::vector<run::Ending>& 
                                     : disk::write(options_.trace_out, as_bytes(text_));
 }
 
-void RoomConsole::tell(Duration t, std::size_t rank, std::string text, bool traced) {
-  waiting_.push_back({t, rank, std::move(text), traced});
+void RoomConsole::tell(Duration t, std::size_t rank, std::string text, From from) {
+  waiting_.push_back({t, rank, std::move(text), from});
 }
 
 void RoomConsole::flush() {
@@ -114,7 +117,7 @@ void RoomConsole::flush() {
 }
 
 void RoomConsole::put(const PendingLine& line) {
-  if (line.traced && !options_.trace_out.empty())
+  if (line.from == From::Trace && !options_.trace_out.empty())
     text_ += line.text;
   else
     print_out(line.text);

@@ -5,6 +5,7 @@
 #include "run/room.h"
 #include "run/trace.h"
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -29,13 +30,14 @@ public:
 
 private:
   class Ear;
+  enum class From : std::uint8_t { Program, Trace };
   struct PendingLine {
     Duration t;
     std::size_t rank = 0; ///< position of the ball by name
     std::string text;
-    bool traced = false;
+    From from = From::Program;
   };
-  void tell(Duration t, std::size_t rank, std::string text, bool traced);
+  void tell(Duration t, std::size_t rank, std::string text, From from);
   void flush();
   void put(const PendingLine& line);
 

@@ -32,7 +32,7 @@ Answer Drive::ready(const ordered_json& message) {
     return print({{"wish", reins_.wish()}});
   auto& robot = reins_.robot();
   Request request(request_, said_);
-  auto run = Run::start(request, {std::nullopt, true}, &robot, **first);
+  auto run = Run::start(request, {.report = true}, &robot, **first);
   if (!run)
     return tl::unexpected(run.error());
   run_ = *std::move(run);

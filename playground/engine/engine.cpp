@@ -105,7 +105,7 @@ Answer Engine::run(Request& request) {
 
 Answer Engine::live_start(Request& request) {
   live_.reset();
-  auto run = Run::start(request, {std::nullopt, true});
+  auto run = Run::start(request, {.report = true});
   if (!run)
     return tl::unexpected(run.error());
   live_ = *std::move(run);

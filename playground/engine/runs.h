@@ -17,7 +17,7 @@ namespace orb::playground {
 
 /// What a page wants to know about a run besides its end.
 struct Wanted {
-  std::optional<report::TraceFormat> trace;
+  std::optional<report::TraceFormat> trace = {};
   bool report = false;
 };
 

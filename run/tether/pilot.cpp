@@ -88,6 +88,7 @@ void Pilot::paint(int x, int y, vm::Color color) {
 
 void Pilot::say(const std::string& text, vm::Color color) {
   constexpr std::uint8_t columns_per_second = 10;
+  constexpr bool repeats = false;
   constexpr std::size_t longest = 25;
   if (!has_matrix_)
     return;
@@ -95,11 +96,11 @@ void Pilot::say(const std::string& text, vm::Color color) {
   for (auto& character : words)
     if (character < ' ' || character > '~')
       character = '?';
-  Bytes data{color.red, color.green, color.blue, columns_per_second, 0};
+  Bytes data{color.red, color.green, color.blue, columns_per_second, repeats};
   data.insert(data.end(), words.begin(), words.end());
   data.push_back(0);
   tell_matrix(spec::V2Command::MatrixText, std::move(data));
-  matrix_.scroll(color, columns_per_second, false, words, robot_.now());
+  matrix_.scroll(color, columns_per_second, repeats, words, robot_.now());
 }
 
 void Pilot::clear_matrix() {

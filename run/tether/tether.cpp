@@ -216,10 +216,10 @@ Bytes Tether::stop_packets() {
   return packets;
 }
 
-void Tether::begin_stop(std::deque<Request> steps, bool whole) {
+void Tether::begin_stop(std::deque<Request> steps) {
   stopping_ = std::move(steps);
   stop_open_ = false;
-  stops_whole_ = whole;
+  stops_whole_ = true;
 }
 
 void Tether::want_stop() {
@@ -230,7 +230,7 @@ void Tether::want_stop() {
       stop_open_ = false;
     }
   } else
-    begin_stop(std::move(steps), true);
+    begin_stop(std::move(steps));
   // Drop unacknowledged drive requests, so that they are not repeated after the stop.
   std::erase_if(open_, [](const Pending& one) {
     return one.kind == Kind::Stabilization || one.kind == Kind::Drive;
@@ -261,7 +261,8 @@ void Tether::drive_motors(vm::Motors motors) {
     return;
   }
   want_stop();
-  begin_stop({std::move(request)}, false); // nothing else: unpowered it coasts
+  begin_stop({std::move(request)});
+  stops_whole_ = false; // nothing else: unpowered it coasts
 }
 
 void Tether::obey(const vm::Motion& motion) {

@@ -154,7 +154,7 @@ private:
   void await_rest(const std::function<void(const RobotMessage&)>& hear);
   void watch_samples();
   std::deque<Request> stop_steps();
-  void begin_stop(std::deque<Request> steps, bool whole);
+  void begin_stop(std::deque<Request> steps);
   void want_stop();
   void take_step(const Pending& step, bool done);
   void resume(std::optional<Request> drive);
