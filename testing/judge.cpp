@@ -26,7 +26,7 @@ public:
       return look(from, to, s, is_true);
     if (!is_true) {
       since_.reset();
-      return look(from, to, s, false);
+      return look(from, to, s, is_true);
     }
     if (!since_)
       since_ = from.t;
@@ -35,13 +35,15 @@ public:
       longest_ = to - *since_;
       longest_from_ = {*since_, from.running};
     }
+    bool has_lasted = long_enough <= from.t;
     // A state does not last into the time after the end.
     if (long_enough > to || (to == never_ends && one_.when.kind == When::Kind::AtEnd))
-      return look(from, to, s, long_enough <= from.t);
-    if (long_enough > from.t)
-      look(from, long_enough, s, false);
+      return look(from, to, s, has_lasted);
+    if (!has_lasted)
+      look(from, long_enough, s, has_lasted);
+    has_lasted = true;
     if (!certain())
-      look({std::max(from.t, long_enough), from.running}, to, s, true);
+      look({std::max(from.t, long_enough), from.running}, to, s, has_lasted);
   }
 
   void on_end(const Moment&, const Outcome&) override {

@@ -98,7 +98,7 @@ std::string replay_command(const Suite& suite, const Group& group, std::uint64_t
   if (program.is_javascript())
     return javascript_command(file, test, program, seed);
   const auto ball = suite.ball ? option("--ball", suite.ball->name) : std::string();
-  if (rolls_out || test.stimulus_lines.size() > most_stimuli) {
+  if (rolls_out || !group.room.empty() || test.stimulus_lines.size() > most_stimuli) {
     auto command = fmt::format("orb test {}{} --seeds {}..{}", path_word(file.source->name()),
                                option("--only", test.name.text), seed, seed) +
                    ball;

@@ -11,9 +11,9 @@ namespace orb::testing {
 /// nothing ran.
 std::string place_of(const Prepared& program, const Running& running);
 
-/// The command that shows a case again: `orb run …`. It is `orb test …` if the ball still rolled
-/// after the end of the program (`rolls_out`): `orb run` does not wait for that.
+/// The command that shows a case again: `orb run …`. It is `orb test …` in a room, and if the ball
+/// still rolled after the end of the program (`rolls_out`): `orb run` does not wait for that.
 std::string replay_command(const Suite& suite, const Group& group, std::uint64_t seed,
-                           bool rolls_out);
+                           bool rolls_out = false);
 
 } // namespace orb::testing

@@ -382,7 +382,7 @@ CaseResult judge_room(const Suite& suite, const Group& group, const run::Options
                    [](const auto& a, const auto& b) { return a.line < b.line; });
   if (!result.misses.empty()) {
     result.verdict = Verdict::Failed;
-    result.again = replay_command(suite, group, options.seed, true);
+    result.again = replay_command(suite, group, options.seed);
   }
   return result;
 }

@@ -92,8 +92,8 @@ void FileReader::read_row(LineWord word, Cursor& cursor, Span span, std::uint32_
   case LineWord::Seeds: seeds_ = read_seeds(cursor, value()); break;
   case LineWord::For: bound_ = read_bound(cursor, value()); break;
   case LineWord::Test: return read_test(cursor, span, line);
-  case LineWord::Expect: return read_expectation(cursor, span, line, false);
-  case LineWord::Never: return read_expectation(cursor, span, line, true);
+  case LineWord::Expect:
+  case LineWord::Never: return read_expectation(cursor, span, line, word == LineWord::Never);
   case LineWord::Reach: return read_reach(cursor, span, line);
   }
   end_of_line(cursor);
