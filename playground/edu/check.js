@@ -1,5 +1,5 @@
-// The mistakes in a Sphero Edu program: what is no JavaScript, names that do not exist, values that a call does not take,
-// what is not awaited, and what the robot has not. From a real parser and the table of the API (engine method `edu`).
+// Checks a Sphero Edu program: syntax errors, unknown names, values that a call does not take, missing `await`s, and what
+// the robot lacks. Uses a real parser and the table of the API (engine method `edu`).
 import { parse } from "acorn";
 
 import { mend } from "./mend.js";
@@ -11,22 +11,22 @@ const longest_source = 1_000_000; // characters
 const most_findings = 100;
 
 const options = { ecmaVersion: "latest", sourceType: "script", locations: true, allowHashBang: true };
-/** The tree of a program; throws what acorn throws. */
+/** Parses a program into a tree; throws acorn's errors. */
 export const tree_of = source => parse(source, options);
 
 const is_function = node => /Function/.test(node.type);
-/** What JavaScript itself brings, as far as a sandbox has it. */
+/** Names that exist in the sandbox besides the table's functions and objects. */
 const built_in = new Set(`Array BigInt Boolean Date Error EvalError Function Infinity JSON Map Math NaN Number Object Promise Proxy RangeError ReferenceError
   Reflect RegExp Set String Symbol SyntaxError TypeError URIError WeakMap WeakSet arguments console decodeURI decodeURIComponent encodeURI
   encodeURIComponent eval globalThis isFinite isNaN parseFloat parseInt undefined setTimeout setInterval clearTimeout clearInterval performance
   print EventType escape unescape`.split(/\s+/));
 
-/** The finding for which a program does not run at all; undefined if there is none. */
+/** The finding that keeps a program from running; undefined if there is none. */
 export const obstacle_in = findings => findings.find(({ rule }) => ["syntax", "too-long", "no-start"].includes(rule));
 
 /** Findings of a program, in the order of its text: [{rule, severity, line, column, end_line, end_column, message, help, fix?}],
- *  lines and columns from 1, columns in UTF-16. `kind` is the robot, as orb names it; without one nobody asks what it has.
- *  `say(text, holes)` says a text of texts.js in another language. */
+ *  lines and columns from 1, columns in UTF-16. `kind` is orb's name for the robot; without it, what the robot lacks is not
+ *  checked. `say(text, holes)` puts a text of texts.js into another language. */
 export function check(source, { table, kind = "", say = fill } = {}) {
   const findings = [];
   const lines = source.slice(0, longest_source).split("\n");
@@ -63,7 +63,7 @@ export function check(source, { table, kind = "", say = fill } = {}) {
   return findings.sort((a, b) => a.line - b.line || a.column - b.column);
 }
 
-/** What acorn says, as a sentence of ours where it is a frequent one. */
+/** The text for acorn's message: a specific one for frequent errors. */
 function why_not({ message }) {
   const plain = message.replace(/ \(\d+:\d+\)$/, "");
   const declared = /^Identifier '(.+)' has already been declared$/.exec(plain);
@@ -75,7 +75,7 @@ function why_not({ message }) {
   return [texts.NoJavaScript];
 }
 
-/** What a program declares, sets, uses and calls. */
+/** Collects what a program declares, sets, uses and calls. */
 function read(tree, table) {
   const functions = new Map(table.functions.map(row => [row.name, row]));
   const declared = new Set(), set = new Set(), uses = [], calls = [], own = new Map(), starts = [];
@@ -138,7 +138,7 @@ function is_use(node, parent) {
 
 const named = names => names.map(name => `\`${name}\``).join(", ");
 const text_of = (source, node) => source.slice(node.start, node.end);
-/** A line with other words in place of a node; nothing where the node has several lines. */
+/** The line of a node, with `words` in place of the node; undefined if the node spans several lines. */
 function line_with({ lines }, node, words) {
   if (node.loc.start.line !== node.loc.end.line) return undefined;
   const line = lines[node.loc.start.line - 1];
@@ -149,7 +149,7 @@ function offer(at, node, words) {
   return line === undefined ? [[]] : [[texts.WriteLine, { line: line.trim() }], { line: node.loc.start.line, text: line }];
 }
 
-/** The number that an expression is, if it is one. */
+/** The value of a number; undefined for other expressions. */
 function constant(node) {
   if (node.type === "Literal" && typeof node.value === "number") return node.value;
   if (node.type === "UnaryExpression" && node.operator === "-") {
@@ -160,7 +160,7 @@ function constant(node) {
 }
 
 const finders = [
-  /** Names that nobody declares. */
+  /** Names that are declared nowhere. */
   function unknown_names(at) {
     const { uses, declared, set, functions, table, own, add, parents } = at;
     const objects = table.objects.map(one => one.name);
@@ -178,7 +178,7 @@ const finders = [
         ...meant ? offer(at, node, meant) : [[]]);
     }
   },
-  /** Members of EventType and its like, of colours and of what sensors tell. */
+  /** Unknown members of EventType and other objects, and of what functions return. */
   function unknown_members(at) {
     const { tree, table, functions, add, kind, declared } = at;
     const objects = new Map([["EventType", table.events.map(one => one.name)], ...table.objects.filter(one => one.members.length).map(one => [one.name, one.members])]);
@@ -200,7 +200,7 @@ const finders = [
       }
     }
   },
-  /** How many values a call has, of which kind, in which range. */
+  /** The number, kind and range of the values of a call. */
   function values(at) {
     const { calls, functions, declared, add, kind } = at;
     for (const { node, name } of calls) {
@@ -226,7 +226,7 @@ const finders = [
       for (const [i, operand] of operands.entries()) if (given[i] && operand.presence !== "rest") value(at, row, operand, given[i]);
     }
   },
-  /** What takes time and is not awaited. */
+  /** Calls that take time and are not awaited. */
   function missing_await(at) {
     const { calls, functions, declared, own, parents, add } = at;
     for (const { node, name, within } of calls) {
@@ -239,7 +239,7 @@ const finders = [
       else if (within && row) add("missing-await", "warning", node.loc.start, node.callee.loc.end, [texts.NotAsync, { name, function: within.id?.name ?? "function" }], [texts.WriteAsync]);
     }
   },
-  /** A function that is named, but not called. */
+  /** Functions that are named but not called. */
   function not_called(at) {
     const { tree, functions, own, add } = at;
     for (const node of nodes(tree)) {
@@ -249,7 +249,7 @@ const finders = [
         add("not-called", "warning", named_only.loc.start, named_only.loc.end, [texts.NotCalled, { name: named_only.name }], ...offer(at, named_only, `${named_only.name}()`));
     }
   },
-  /** Loops in which no time passes and nothing changes. */
+  /** Loops that never end because no time passes in them. */
   function endless(at) {
     const { tree, add, functions } = at;
     const left = [[tree, null]];
@@ -267,7 +267,7 @@ const finders = [
       add("no-time-passes", "warning", node.loc.start, end, [texts.NoTime], [texts.AddDelay]);
     }
   },
-  /** Where it begins. */
+  /** Where the program starts, and whether it drives or ends at once. */
   function start(at) {
     const { starts, own, set, declared, add, whole_line, calls, functions, lines } = at;
     if (starts.length > 1) {
@@ -283,7 +283,7 @@ const finders = [
     }
     const drives = calls.some(({ name }) => functions.get(name)?.group === "movement" && !["setStabilization", "resetAim", "calibrateCompass", "stopRoll"].includes(name) || /^(start|stop)IR/.test(name))
       || at.uses.some(({ name }) => name === "Animation");
-    // Nothing follows a speed that was set, and no event keeps the program going.
+    // The program ends right after setting a speed, and no event or timer keeps it going.
     const last = starts[0]?.body.body?.at(-1), call = last?.type === "ExpressionStatement" && (last.expression.argument ?? last.expression);
     if (call?.type === "CallExpression" && call.callee.name === "setSpeed" && constant(call.arguments[0]) && !calls.some(({ name }) => /^registerEvent|^set(Interval|Timeout)$/.test(name)))
       add("ends-at-once", "warning", call.loc.start, call.loc.end, [texts.EndsAtOnce], [texts.WaitBelow]);
@@ -301,7 +301,7 @@ function all_below(node) {
   return all;
 }
 
-/** Whether a call takes time as it stands: some only with `true`. */
+/** True if a call takes time; some do only if `wait` is `true`. */
 function waits(row, node) {
   const at = row.operands.findIndex(one => one.name === "wait");
   if (at < 0) return true;
@@ -323,7 +323,7 @@ function value(at, { name, example }, operand, node) {
   const kind_of = is !== undefined ? "number" : node.type === "Literal" ? typeof node.value : node.type === "ObjectExpression" ? "object" : node.type === "ArrayExpression" ? "array" : /Function/.test(node.type) ? "function" : "";
   const wants = { number: ["number"], whole: ["number"], bool: ["boolean", "number"], color: ["object"], point: ["object"], "color or number": ["object", "number"], text: ["string", "number"], function: ["function"], picture: ["object"] }[type];
   if (wants && kind_of && !wants.includes(kind_of)) {
-    // A number within quotes is read as one.
+    // A number in quotes counts as a number.
     if (!(wants.includes("number") && kind_of === "string" && node.value.trim() !== "" && Number.isFinite(+node.value)))
       return add("wrong-value", "warning", node.loc.start, node.loc.end, [texts.WrongKind, { name, operand: operand.name }], [texts.Like, { example }]);
   }
@@ -338,7 +338,7 @@ function value(at, { name, example }, operand, node) {
   if (kind_of === "object" && ["color", "point", "color or number"].includes(type)) parts(at, operand, type === "point" ? ["x", "y"] : ["r", "g", "b"], node, range);
 }
 
-/** The parts of a colour or a point. */
+/** Checks the parts of a colour or a point. */
 function parts(at, operand, names, node, range) {
   const given = new Map();
   for (const one of node.properties) {

@@ -1,22 +1,22 @@
-// The trusted end of an Edu program: what it did goes to a robot, and what the robot feels comes back. It believes nothing
+// The trusted side of an Edu program: passes its commands to a robot, and the robot's sensor values back. Trusts nothing
 // that comes out of the sandbox.
 
-/** Seconds after which a program that does not end by itself is ended. */
+/** Seconds of its time after which a program is ended. */
 export const usual_limit = 120;
-const most_deeds = 8192;   // of one message
-const frame = 0.033;       // s: so finely a live run moves on
+const most_deeds = 8192;   // in one message
+const frame = 0.033;       // s: time step of a live run
 
-/** What people hear or see of a program beside its robot. */
+/** Output for people rather than the robot. */
 const told = new Set(["print", "speak", "sound", "animation", "note"]);
 
-/** What a test takes for printed. */
+/** True for what a test counts as printed. */
 export const is_print = what => what === "print" || what === "speak";
 
-/** A robot of the engine that a program drives. */
+/** Lets a program drive a robot of the engine. */
 export class Host {
   #call; #robot; #limit; #on; #over = null; #names;
-  /** `call(method, params)` of the engine; `edu_step` may take its time. `robot`: its number there. `on(what, ...values)` is told what is printed, said and
-   *  played, each with the program's time before it. */
+  /** `call(method, params)` calls the engine; `edu_step` may return a promise. `robot`: its number there. `on(what, seconds,
+   *  ...values)` gets what is printed, said and played, with the program's time. */
   constructor({ call, robot, table, limit = usual_limit, on = () => {} }) {
     this.#call = call;
     this.#robot = robot;
@@ -25,23 +25,23 @@ export class Host {
     this.#names = new Set(["drive", ...table.functions.map(row => row.name)]);
     this.now = 0;
     this.state = {};
-    /** The robot as the program left it, once it is over. */
+    /** The state in which the program left the robot; null while it runs. */
     this.final = null;
   }
-  /** Readies the robot; the first message for the sandbox. */
+  /** Readies the robot; returns the first message for the sandbox. */
   begin({ source, table, kind, seed = 1 }) {
     this.#take(this.#call("edu_start", { robot: this.#robot }));
     return JSON.stringify({ begin: { source, table: { functions: table.functions, events: table.events, objects: table.objects }, kind, seed, state: this.state } });
   }
-  /** How it ended: {how: "done" | "error" | "limit" | "silent" | "stopped", error?}; null while it goes on. */
+  /** How it ended: {how: "done" | "error" | "limit" | "silent" | "stopped", error?}; null while it runs. */
   get over() { return this.#over; }
   #take({ now, state }) {
     this.now = now;
     this.state = state;
   }
 
-  /** The answer to a message of the sandbox; null once the run is over. `pace()`, if given, is asked before each piece of
-   *  time how far the run may be, in seconds, and may take its time. */
+  /** Answers a message of the sandbox; null once the run is over. `pace(now, until)`, if given, decides before each step how
+   *  far the run may go, in seconds; the run waits for it. */
   async answer(text, pace) {
     const asked = this.#read(text);
     if (!asked || this.#over) return null;
@@ -71,7 +71,7 @@ export class Host {
     }
   }
 
-  /** Ends the run: the robot is told to stop. */
+  /** Ends the run and stops the robot. */
   end(how, error, did = []) {
     if (this.#over) return null;
     this.#over = { how, ...error ? { error } : {} };
@@ -83,7 +83,7 @@ export class Host {
     return null;
   }
 
-  /** A message, with what can be used of it; null for what is none. */
+  /** Parses a message and keeps what is valid; null if it is not a message. */
   #read(text) {
     let message;
     try {
@@ -102,7 +102,7 @@ export class Host {
   }
 }
 
-/** An error as the sandbox tells it, with holes that are texts. */
+/** Validates an error from the sandbox; its holes become texts. */
 function read_error(error) {
   const holes = {};
   for (const [name, value] of Object.entries(error?.holes ?? {}).slice(0, 8)) holes[name] = String(value).slice(0, 1001);

@@ -1,15 +1,15 @@
-// The line to write for a program that does not parse: small changes at the place where the parser gave up, and just before it,
-// until one of them parses, or gets the parser much farther.
+// Finds the line to write in a program that does not parse: tries small changes where the parser gave up, and just before,
+// until one parses or gets the parser further.
 import { tokenizer } from "acorn";
 
 import { texts } from "./texts.js";
 
 const near_before = 2;      // lines
 const most_trials = 400;
-const most_characters = 200_000; // longer programs are not mended: a trial reads all of it
+const most_characters = 200_000; // longer programs are not mended: each trial parses all of it
 const curly = /[“”„«»‘’‚]/g;
 
-/** How far a text parses: its length, if all of it does. */
+/** Where the parser gives up on a text; Infinity if it parses. */
 function reach(text, parse) {
   try {
     parse(text);
@@ -19,7 +19,7 @@ function reach(text, parse) {
   }
 }
 
-/** What is to be written instead: {at: line, line: its text, why: [text, holes], place}; undefined where nothing was found. */
+/** The line to write instead: {at: its number, line: its text, why: [text, holes], place}; undefined if none was found. */
 export function mend(source, error, parse) {
   if (source.length > most_characters) return undefined;
   const lines = source.split("\n"), failed = Math.min(error.loc.line, lines.length);
@@ -31,7 +31,7 @@ export function mend(source, error, parse) {
     if (best?.reach === Infinity || trials++ > most_trials || line === lines[number - 1]) return;
     const text = [...lines.slice(0, number - 1), line, ...lines.slice(number)].join("\n");
     const far = reach(text, parse);
-    // It has to get past the line on which the parser gave up, by something.
+    // The parser must get past the line on which it gave up.
     if (far === Infinity || far > end + 1 + (text.length - source.length) && far > (best?.reach ?? -1)) best = { reach: far, at: number, line, why, place: { line: number, column } };
   }
   const conflict = lines.findIndex(line => /^(<{7}|={7}|>{7}|\|{7})( |$)/.test(line));
@@ -55,14 +55,14 @@ export function mend(source, error, parse) {
     attempt(failed, lines[failed - 1].replace(/\b(let|const|var)\s+/, ""), [texts.DeclaredTwice, { name: twice[1] }], error.loc.column);
     return best;
   }
-  // A sign or two that stand for others.
+  // Frequent slips, such as `=>` for `>=`.
   const rewrites = [[/=>/g, ">=", ">="], [/=</g, "<=", "<="], [/^(\s*(?:await\s+)?\w+)\s*(\{.*\})\s*;?\s*$/, "$1($2);", "("], [/(\w)\(\s*((?:[rgbxy]\s*:[^{}()]*)+)\)/g, "$1({ $2 })", "{"],
     [/\b(if|while)\s+([^({][^{]*?)\s*\{/, "$1 ($2) {", "("]];
   for (const [wrong, right, sign] of rewrites) {
     const found = lines[failed - 1].search(wrong);
     if (found >= 0) attempt(failed, lines[failed - 1].replace(wrong, right), [texts.SignMissing, { sign }], Math.max(found, error.loc.column - 1));
   }
-  // A head without its brace.
+  // A function, loop or `if` without its brace.
   for (let number = failed; number >= Math.max(1, failed - 1); --number) {
     const line = lines[number - 1].trimEnd();
     if (/^\s*(async\s+)?(function|if|for|while|else)\b.*[)e]$/.test(line)) attempt(number, `${line} {`, [texts.SignMissing, { sign: "{" }], Math.max(0, line.length - 1));
@@ -70,14 +70,14 @@ export function mend(source, error, parse) {
   for (let number = failed; number >= Math.max(1, failed - near_before); --number) {
     const line = lines[number - 1], here = number === failed ? Math.min(error.loc.column, line.length) : line.trimEnd().length;
     if (curly.test(line)) attempt(number, line.replace(/[‘’‚]/g, "'").replace(/[“”„«»]/g, '"'), [texts.WrongQuotes], line.search(curly));
-    // A word that was meant otherwise.
+    // A misspelled or capitalised keyword.
     const words = [[/\b(Async|ASYNC|asyc|aysnc|asnyc)\b/g, "async"], [/\b(Await|AWAIT|awiat|awit|awair)\b/g, "await"], [/\b(Function|funtion|fuction|funciton|functon)\b/g, "function"],
       [/\bElse\b/g, "else"], [/\bIf\b/g, "if"], [/\bWhile\b/g, "while"], [/\bFor\b/g, "for"], [/\bLet\b/g, "let"], [/\bVar\b/g, "var"], [/\bConst\b/g, "const"], [/\belif\b|\belseif\b|\bElse If\b/g, "else if"],
       [/\bsync function/g, "async function"]];
     for (const [wrong, right] of words) if (wrong.test(line)) attempt(number, line.replace(wrong, right), [texts.WordMissing, { word: right }], Math.max(0, line.search(wrong)));
     const whole = line.trimEnd(), comment = /\/\//.exec(whole);
     const ends = comment ? whole.slice(0, comment.index).trimEnd() : whole, tail = comment ? line.slice(ends.length) : "";
-    // A sign that is missing, at the end of what was read or of the line.
+    // An extra sign where the parser stopped, or one missing there or at the line's end.
     if (number === failed && /[)\]};,]/.test(line[here] ?? "")) attempt(number, line.slice(0, here) + line.slice(here + 1), [texts.TooManySigns, { sign: line[here] }], here);
     const before = line.slice(0, here).trimEnd().length, brace = /\s*\{$/.exec(ends);
     const places = [...new Set([ends.length, before, ...brace ? [brace.index] : [], here, ...number === failed ? [...line.matchAll(/[\s(){};,]/g)].map(found => found.index).filter(i => Math.abs(i - here) < 12) : []])];
@@ -85,13 +85,13 @@ export function mend(source, error, parse) {
     if (number === failed && last === ")" && /[\w$]/.test(next)) attempt(number, `${line.slice(0, before)};${line.slice(before)}`, [texts.SignMissing, { sign: ";" }], before);
     for (const sign of [")", "}", "{", "]", ",", ";", ")}", "))", "})", "(", '"', "'", "`", ":", "+"])
       for (const place of sign === "}" ? [here, ...places] : places) {
-        // A comma parts values, not a name and what it is called with.
+        // A comma separates values, never a name from its arguments.
         if (sign === "," && (!/[\w$)}\]"'`]/.test(line.slice(0, place).trimEnd().at(-1) ?? "") || /^[({[=.]|^$/.test(line.slice(place).trimStart()[0] ?? ""))) continue;
         const text = place === ends.length ? ends + sign + tail : line.slice(0, place) + sign + line.slice(place);
         attempt(number, text, [texts.SignMissing, { sign }], Math.max(0, Math.min(place, line.length) - (place === line.length ? 1 : 0)));
         if (sign === ")" || sign === "})") attempt(number, place === ends.length ? ends.replace(/;$/, "") + sign + ";" + tail : text, [texts.SignMissing, { sign }], Math.max(0, ends.length - 1));
       }
-    // A sign too many, or another one for it.
+    // An extra sign, or a wrong one.
     for (let i = Math.max(0, here - 12); i < Math.min(line.length, here + 12); ++i) {
       const sign = line[i];
       if (/[(){}\][,;:.="'`+]/.test(sign)) attempt(number, line.slice(0, i) + line.slice(i + 1), [texts.TooManySigns, { sign }], i);
@@ -112,7 +112,7 @@ export function mend(source, error, parse) {
   return best;
 }
 
-/** Where braces are open: the line of each that nothing has closed, before each line. */
+/** The lines of the braces that are still open: at the end, and before each line. */
 function open_braces(source, lines) {
   const open = [], before = Array.from(lines, () => []);
   let line = 1;
@@ -122,12 +122,12 @@ function open_braces(source, lines) {
       if (token.type.label === "{" || token.type.label === "${") open.push(token.loc.start.line);
       else if (token.type.label === "}") open.pop();
     }
-  } catch { /* as far as it goes */ }
+  } catch { /* keep what was read so far */ }
   for (; line < lines.length; ++line) before[line] = [...open];
   return { open, before };
 }
 
-/** Braces that nobody closes: before the next function, or at the end. */
+/** Closes open braces: before the next function, or at the end. */
 function close(source, lines, parse) {
   const { open, before } = open_braces(source, lines);
   const insert = (number, text, from) => { // below that line

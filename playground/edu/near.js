@@ -1,4 +1,4 @@
-/** How many letters differ: changed, left out, put in, or two that changed places. Stops at `most`. */
+/** Counts letters changed, left out, put in, or swapped; `most` + 1 if the lengths alone differ by more. */
 function distance(a, b, most) {
   if (Math.abs(a.length - b.length) > most) return most + 1;
   let before = [], row = Array.from({ length: b.length + 1 }, (_, i) => i);
@@ -14,7 +14,7 @@ function distance(a, b, most) {
   return row[b.length];
 }
 
-/** The name that is meant; undefined where none is near enough, or two are as near. */
+/** The name that is probably meant; undefined if none is near enough or two are equally near. */
 export function near(name, names) {
   if (name.length > 60) return undefined;
   const plain = name.toLowerCase();

@@ -1,4 +1,4 @@
-// Sphero Edu programs in node: checked and run on virtual robots. `orb-robot` is the command of it.
+// Checks and runs Sphero Edu programs in node, on virtual robots; `orb-robot` is the command.
 import table from "edu.json";
 import { check, obstacle_in, tree_of } from "./check.js";
 import { Host, is_print, usual_limit } from "./host.js";
@@ -9,7 +9,7 @@ import { lines_of, text_of } from "./told.js";
 
 export { check, lines_of, obstacle_in, table, text_of, words_of };
 
-/** Whether a text is such a program, not a client of its own: it brings no library, and begins or calls as one does. */
+/** True if a text is a Sphero Edu program: it imports nothing, and has startProgram or calls two functions of the API. */
 export function is_edu(source) {
   const text = source.slice(0, 200_000).replace(/\/\*[^]*?\*\/|\/\/.*/g, "");
   if (/\brequire\s*\(|^\s*import\b|\bimport\s*\(/m.test(text)) return false;
@@ -18,22 +18,22 @@ export function is_edu(source) {
   return table.functions.filter(row => names.has(row.name)).length >= 2;
 }
 
-/** Runs a program at once on the virtual robot `robot`: its number in the engine, which `call` asks. Resolves to {how, error?,
- *  now, stopped, state}: how it ended, the program's seconds, and the robot before it was let go. */
+/** Runs a program on the virtual robot number `robot` of the engine, which `call` calls. Resolves to {how, error?, now,
+ *  stopped, state}: how it ended, the program's time in seconds, and the robot's last state. */
 export async function run(source, { call, robot, table, kind, seed, limit = usual_limit, on, pace }) {
   const host = new Host({ call, robot, table, limit, on });
   let prepared;
   try {
     prepared = prepare(source, tree_of(source));
-  } catch (error) { // what does not parse never comes to the sandbox
+  } catch (error) { // what does not parse never reaches the sandbox
     return { how: "error", error: { rule: "exception", line: error.loc?.line ?? 0, column: 1, holes: { text: `SyntaxError: ${error.message}` } }, now: 0, stopped: true, state: null };
   }
   await run_in_worker(host, host.begin({ source: prepared, table, kind, seed }), pace);
   return { ...host.over, now: host.now, state: host.final };
 }
 
-/** Tests programs, JavaScript on the virtual robot `kind`, others as the engine does it. `request`: as that of the engine's
- *  `test`, with a `format`; so is what this resolves to. */
+/** Tests programs: JavaScript on a virtual robot `kind`, others in the engine. Request and result are those of the engine's
+ *  `test`, with a `format`. */
 export async function test(request, { call, kind = "bolt" }) {
   const { cases, sources } = call("trials_start", request), problems = {};
   for (const [name, source] of Object.entries(sources)) {

@@ -1,7 +1,7 @@
-// The text of a program as the sandbox runs it: the same lines, and in each loop and function a call that counts its
-// turns, so that an endless one is ended with a sentence that names its line. Loops that await something wait there.
+// Prepares a program's text for the sandbox: keeps its lines, and adds a call to each loop and function that counts turns,
+// so that an endless one is ended with an error that names its line. Loops that await something pause there.
 
-/** Nodes below one, in the order of the text. */
+/** The children of a node. */
 export function children(node) {
   const all = [];
   for (const key in node) {
@@ -11,7 +11,7 @@ export function children(node) {
   }
   return all;
 }
-/** A node and all below it, in no order. */
+/** A node and all below it, in no particular order. */
 export function* nodes(tree) {
   const left = [tree];
   while (left.length) {
@@ -25,7 +25,7 @@ const is_function = node => /Function/.test(node.type);
 const loops = new Set(["WhileStatement", "DoWhileStatement", "ForStatement", "ForInStatement", "ForOfStatement"]);
 export const is_loop = node => loops.has(node.type);
 
-/** Whether `wanted` is true of a node below one, in the same function. */
+/** True if `wanted` holds for a node below this one, in the same function. */
 export function below(node, wanted) {
   const left = children(node);
   while (left.length) {
@@ -57,12 +57,12 @@ export function prepare(source, tree) {
     if (node.type === "ImportExpression") inserts.push([node.start, 2, "__"]);
     for (const one of children(node)) left.push([one, inside]);
   }
-  /** Behind a directive such as "use strict". */
+  /** Inserts a call at the start of a block, after directives such as "use strict". */
   function enter(block, call) {
     const directives = block.body.filter(one => one.directive !== undefined);
     inserts.push([directives.length ? directives.at(-1).end : block.start + 1, 0, directives.length ? `;${call}` : ` ${call}`]);
   }
-  // Where one statement ends and another begins, the end is first.
+  // Where one statement ends and another begins, the end comes first.
   let text = "", from = 0;
   const order = [1, 0, 2]; // what ends, what begins, a name
   const sorted = inserts.map(([place, kind, piece], i) => [place, order.indexOf(kind), i, piece]).sort((a, b) => a[0] - b[0] || a[1] - b[1] || a[2] - b[2]);

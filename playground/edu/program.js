@@ -1,14 +1,14 @@
-// What runs inside the sandbox beside a Sphero Edu program: the functions that it calls, its time, and its events.
+// The runtime of a Sphero Edu program inside the sandbox: the functions that it calls, its time, and its events.
 //
-// edu_program() is all of it and uses nothing from outside itself, so its text can be taken into a worker or another
-// realm: `(${edu_program})(bridge)`. It trusts neither side and shares no object with the program but its own.
+// edu_program() uses nothing from outside itself, so its text can be taken into a worker or another realm:
+// `(${edu_program})(bridge)`. It trusts neither side and shares only its own objects with the program.
 //   bridge.post(text)   a message to the host, as JSON
-//   bridge.later(f)     calls f once nothing is left to do at this moment: a macrotask
-//   bridge.load(text)   the value of a text of the program, run in its realm; without it, eval
-// The result takes a message of the host, as JSON. Messages: playground/README.md.
+//   bridge.later(f)     calls f in a later macrotask, when nothing is left to do at this moment
+//   bridge.load(text)   runs a text of the program in its realm and returns its value; eval by default
+// The returned function takes a message of the host, as JSON. Messages: playground/README.md.
 //
-// Whatever a program does takes no time, but for what it awaits. When it has come to rest it sends ONE message with all
-// that it did, and when it wants to be woken; the answer brings the time, the robot's state and events.
+// A program takes no time except where it awaits. When nothing is left to run, it sends ONE message with all that it did and
+// when to wake it; the answer brings the time, the robot's state and events.
 
 /** @param {{ post(text: string): void, later(f: () => void): void, load?(text: string): unknown }} bridge */
 export function edu_program(bridge) {
@@ -21,9 +21,9 @@ export function edu_program(bridge) {
   const longest_text = 1000;          // of a print, in characters
   const most_deeds = 4096;            // at one moment
   const most_turns = 5_000_000;       // of loops, while no time passes
-  const most_ms = 2500;               // of the computer's time, for slow ones
-  const shortest_turn = 0.025;        // s: a loop that awaits something waits so long at least
-  const glance = 0.05;                // s: so often a condition is looked at, as often as the robot tells of itself
+  const most_ms = 2500;               // of real time, for slow loops
+  const shortest_turn = 0.025;        // s: the wait in a turn of an awaiting loop that took no time
+  const glance = 0.05;                // s: how often conditions are checked; the robot reports as often
   const epoch = a_date.UTC(2026, 0, 1);
 
   let kind = "", seed = 1, table = { functions: [], events: [], objects: [] };
@@ -33,11 +33,11 @@ export function edu_program(bridge) {
   let arrived = [];
   const handlers = new Map(), conditions = [];
   let main_is_over = false, last_ir = -1;
-  let driven = 0; // counts what sets the motors: a roll that was overtaken does not stop what came after it
+  let driven = 0; // counts motor commands: an overtaken roll must not stop its successor
   const set = { speed: 0, heading: 0, stabilization: true, motors: { left: 0, right: 0 }, leds: {}, dome: {}, animations: 0 };
   const over = { name: "over" };
 
-  // What is told.
+  // Messages.
   const send = message => post(stringify(message));
   function end(how, error) {
     if (dead) return;
@@ -51,7 +51,7 @@ export function edu_program(bridge) {
   }
   function deed(name, ...values) {
     if (dead) throw over;
-    // Of what is set again and again at one moment only the last is seen.
+    // Of values set repeatedly at one moment, only the last one shows.
     if ((name === "drive" || name === "setMainLed") && did.at(-1)?.[0] === name) did.pop();
     if (did.length >= most_deeds) fail("too-much-at-once", line_now);
     did.push([name, ...values]);
@@ -89,7 +89,7 @@ export function edu_program(bridge) {
       if (one.level === level && (!first || one.due < first.due || one.due === first.due && one.order < first.order)) first = one;
     return first;
   };
-  /** Whether something is left that can go on by itself. */
+  /** True if something is left that can still run. */
   const alive = () => timers.length > 0 || level > 0 || arrived.length > 0 || !main_is_over || handlers.size > 0 || conditions.length > 0;
 
   function rest() {
@@ -102,7 +102,7 @@ export function edu_program(bridge) {
       return later(rest);
     }
     let next = runnable();
-    if (!next && level > 0) { // it waits for what the main program brings about
+    if (!next && level > 0) { // the handler waits for the main program
       level = 0;
       return later(rest);
     }
@@ -126,13 +126,13 @@ export function edu_program(bridge) {
     for (const one of running) one.catch(failed);
     a_promise.allSettled(running).then(() => {
       level = 0;
-      for (const one of timers) one.level = 0; // what it did not wait for goes on beside the main program
+      for (const one of timers) one.level = 0; // what it did not await goes on as part of the main program
     });
   }
   function happen(name, value) {
     if (name === "onIRMessage") last_ir = value;
     const functions = handlers.get(name);
-    // What happens again before it was handled is the same.
+    // An event that repeats before it is handled counts once.
     if (functions && arrived.length < 32 && !arrived.some(one => one.name === name && one.value === value)) arrived.push({ name, functions, value });
   }
   const told_by = { onAmbientLight: () => state.luminosity, onTotalDistance: () => state.distance, onElapsedTime: () => now };
@@ -167,7 +167,7 @@ export function edu_program(bridge) {
   const color = value => value !== null && typeof value === "object" ? { r: part(value.r), g: part(value.g), b: part(value.b) } : { r: 0, g: 0, b: 0 };
   const point = value => value !== null && typeof value === "object"
     ? { x: between(0, floor(number(value.x, 0)), 7), y: between(0, floor(number(value.y, 0)), 7) } : { x: 0, y: 0 };
-  /** A value as its operand has it. */
+  /** Converts a value to what its operand takes. */
   function fit(name, operand, value) {
     switch (operand.type) {
       case "number": case "whole": {
@@ -185,7 +185,7 @@ export function edu_program(bridge) {
     }
   }
 
-  // Chance: the same seed, the same numbers.
+  // Random numbers: the same seed gives the same ones.
   let chance = 0;
   function random() {
     chance = (chance + 0x6d2b79f5) | 0;
@@ -208,7 +208,7 @@ export function edu_program(bridge) {
   const vector = key => ({ ...state[key] });
   const seconds_of_speech = text => 0.5 + 0.065 * text.length; // ?
 
-  /** What is not just handed on. */
+  /** Functions that do more than pass a command on. */
   const own = {
     async roll(heading, speed, duration) {
       set.heading = on_circle(number(heading, 0, "roll", "heading"));
@@ -269,7 +269,7 @@ export function edu_program(bridge) {
       const wanted = between(-255, number(speed, 0, "driveToDistance", "speed"), 255);
       set.heading = on_circle(number(heading, 0, "driveToDistance", "heading"));
       for (let left = way; left > 0.5 && wanted !== 0 && driven === mine && now - begun < 10 + way; left = way - ((state.distance ?? 0) - from)) {
-        // Slower near the end, as the robot does it itself.
+        // Slow down near the end, as the robot does.
         const most = min(abs(wanted), max(12, 1.6 * left));
         set.speed = wanted < 0 ? -most : most;
         drive();
@@ -375,14 +375,14 @@ export function edu_program(bridge) {
     toDegrees: radians => number(radians, 0) * 180 / PI,
   };
   own.rollToDistance = own.driveToDistance;
-  /** Points before the colour are an older order of values. */
+  /** Takes the colour first, or last as older programs pass it. */
   function drawn(name, values, points) {
     const objects = values.filter(one => one !== null && typeof one === "object");
     const places = objects.filter(one => "x" in one || "y" in one).slice(0, points).map(point);
     while (places.length < points) places.push({ x: 0, y: 0 });
     deed(name, color(objects.find(one => "r" in one || "g" in one || "b" in one)), ...places);
   }
-  /** A command that is handed on as it is. */
+  /** A command that is passed on with its values fitted. */
   const handed_on = ({ name, operands }) => (...values) => {
     const fitted = operands.some(one => one.presence === "rest") ? values.flat(1).slice(0, 16).map(one => fit(name, { type: typeof one === "object" ? "color" : "whole", least: 0, most: 255 }, one))
       : operands.map((operand, i) => fit(name, operand, values[i]));
@@ -393,7 +393,7 @@ export function edu_program(bridge) {
   };
   const reads_light = name => () => led(/^get(.*)Led$/.exec(name)[1]);
 
-  /** Names below names, as many as a program writes, each of which can be played. */
+  /** Nested names, made when a program uses them; each can be played. */
   function tree(path, play) {
     const known = new Map();
     return new Proxy(() => {}, {
@@ -426,16 +426,16 @@ export function edu_program(bridge) {
     return freeze(Object.fromEntries(members.map((member, i) => [member, /^deg\d+$/.test(member) ? +member.slice(3) : i])));
   }
 
-  // What stands in the text of the program: playground/edu/prepare.js writes it there.
+  // Calls that playground/edu/prepare.js puts into the program's text.
   let line_now = 0;
-  /** Once for every turn of a loop and every call of a function. */
+  /** Called at each turn of a loop and each call of a function. */
   function turn(line) {
     line_now = line;
     if (dead) throw over;
     if (++turns > most_turns || (turns & 255) === 0 && real_now() - since > most_ms) fail("endless-loop", line);
   }
   const begun = []; // when the last turn of each loop began
-  /** The same for a loop that awaits something, the loop of that number. */
+  /** The same for a loop that awaits something; `loop` is its number. */
   const pause = (line, loop) => {
     turn(line);
     const waits_now = begun[loop] === now;

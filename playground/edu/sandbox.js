@@ -1,10 +1,10 @@
-// The sandbox of node: a worker with a realm of its own, without modules, files, network or the process. An endless loop is
-// ended with its worker.
+// The sandbox in node: a worker with a separate realm, without modules, files, network or the process. Terminating the
+// worker ends an endless loop.
 import { Worker } from "node:worker_threads";
 
 import { edu_program } from "./program.js";
 
-/** What a realm has besides the language that no such program needs, and that holds memory outside the limits, or blocks. */
+/** Globals that no Edu program needs and that could use memory outside the limits, or block. */
 const withheld = ["WebAssembly", "SharedArrayBuffer", "Atomics", "ArrayBuffer", "DataView", "Int8Array", "Uint8Array", "Uint8ClampedArray", "Int16Array", "Uint16Array",
   "Int32Array", "Uint32Array", "Float32Array", "Float64Array", "BigInt64Array", "BigUint64Array", "WeakRef", "FinalizationRegistry"];
 
@@ -25,11 +25,11 @@ process.on("uncaughtException", rejected);
 parentPort.on("message", text => { hear(text); });
 `;
 
-/** Seconds without an answer after which it is ended. */
+/** Seconds without an answer after which a program is ended. */
 export const patience = 20;
 const megabyte_limits = { maxOldGenerationSizeMb: 192, maxYoungGenerationSizeMb: 32, stackSizeMb: 4 };
 
-/** Runs a program with a Host until it is over; `pace` as of Host.answer(). */
+/** Runs a program with a Host until it is over; `pace` as in Host.answer(). */
 export async function run_in_worker(host, first, pace) {
   const worker = new Worker(worker_text, { eval: true, env: {}, argv: [], execArgv: [], stdin: false, stdout: true, stderr: true, resourceLimits: megabyte_limits });
   const failure = rule => ({ rule, line: 0, column: 1, holes: { n: patience } });

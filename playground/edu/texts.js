@@ -1,5 +1,5 @@
-// All that is said of Edu programs, once: names between braces are holes. translations/ has them in other languages, by the
-// English, in the section of the page.
+// All texts about Edu programs; names in braces are holes. translations/ has them in other languages, keyed by the English,
+// in the page's section.
 export const texts = {
   TooLong: "the program is too long; {n} characters are the most",
   TooDeep: "this is nested too deeply",
@@ -45,7 +45,7 @@ export const texts = {
   WaitBelow: "write `await delay(2);` below",
   Lacks: "{robot} has no `{name}`",
   Have: "these have it: {robots}",
-  // A run.
+  // At run time.
   EndlessLoop: "no time passes in this loop, so the program was ended",
   TooMuchAtOnce: "the program does more than {n} things at one moment, so it was ended",
   Exception: "the program stopped: {text}",
@@ -56,14 +56,14 @@ export const texts = {
   NotANumber: "`{operand}` of `{name}` is not a number: {value}",
 };
 
-/** A text with its holes filled. */
+/** Fills the holes of a text. */
 export const fill = (text, holes = {}) => text.replace(/\{(\w+)\}/g, (whole, name) => name in holes ? String(holes[name]) : whole);
 
-/** What is said of the error of a run. */
+/** The text for the error of a run. */
 export function words_of(error, say = fill) {
   const text = { "endless-loop": texts.EndlessLoop, "too-much-at-once": texts.TooMuchAtOnce, exception: texts.Exception, robot: texts.Robot, silent: texts.Silent, memory: texts.Memory, "not-a-number": texts.NotANumber, forged: texts.Forged }[error.rule] ?? texts.Exception;
   return say(text, { n: 4096, text: error.rule, ...error.holes });
 }
 
-/** The same with its place in the program `name`. */
+/** The same, after its place in the program `name`. */
 export const fault_at = (name, error, say) => `${name}${error.line ? `:${error.line}` : ""}: ${words_of(error, say)}`;

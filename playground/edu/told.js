@@ -1,9 +1,9 @@
-// Findings of Edu programs as node prints them.
+// Formats findings of Edu programs for the terminal.
 
-/** The lines of a source. */
+/** The lines of a source, without CRs. */
 export const lines_of = source => source.split("\n").map(line => line.replace(/\r$/, ""));
 
-/** A finding of `check`, with its line. `name`, `lines`: of the source. */
+/** Formats a finding of `check`, with its line. `name` and `lines` are the source's. */
 export function text_of(name, lines, one) {
   const line = (lines[one.line - 1] ?? "").replaceAll("\t", " "), number = String(one.line);
   const wide = one.end_line > one.line ? line.trimEnd().length + 1 - one.column : one.end_column - one.column;
