@@ -13,7 +13,7 @@ const given = (files, options) => ({ ...options, files: typeof files === "string
 
 export const check = (files, options) => call("check", given(files, options));
 export const run = (files, options) => call("run", given(files, options));
-/** Programs in JavaScript run in a worker of node. */
+/** JavaScript programs run in a worker thread. */
 export const test = async (files, options) => {
   const asked = given(files, options);
   return Object.keys(asked.files).some(name => /\.js$/i.test(name)) ? (await import("./edu.js")).test(asked, await loaded()) : call("test", asked);

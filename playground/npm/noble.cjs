@@ -1,15 +1,15 @@
 // A stand-in for noble (@abandonware/noble and its kin): programs that look for real robots find virtual ones, in real
-// time. Which ones say $ORB_ROBOT (bolt), $ORB_COUNT, $ORB_SEED and $ORB_FAULT.
+// time. $ORB_ROBOT (bolt), $ORB_COUNT, $ORB_SEED and $ORB_FAULT choose them.
 "use strict";
 const { EventEmitter } = require("node:events");
 
-/** Events of a Bluetooth LE link come so often, in ms: the longest connection interval that Apple's rules for devices allow
- *  for data (15 ms). */
+/** Milliseconds between the events of a Bluetooth LE link: the longest connection interval that Apple's rules for devices
+ *  allow for data. */
 const interval = 15;
 const short = uuid => uuid.replaceAll("-", "").toLowerCase().replace(/^0000(.{4})00001000800000805f9b34fb$/, "$1");
 const lost = () => new Error("the robot is not connected");
 
-/** A promise, and a call of `callback` as older programs want it. */
+/** Returns the promise, or passes its result to `callback`, as older programs expect. */
 function answered(promise, callback) {
   if (typeof callback !== "function") return promise;
   promise.then(value => callback(null, value), callback);
@@ -48,7 +48,7 @@ class Characteristic extends EventEmitter {
   readAsync() {
     if (!this.peripheral.up) return Promise.reject(lost());
     if (!this.properties.includes("read")) return Promise.reject(new Error(`${this.uuid} cannot be read`));
-    const { robot } = this.peripheral; // some values are its own
+    const { robot } = this.peripheral; // some values differ from robot to robot
     const own = { "2a00": () => robot.name, "2a19": () => [robot.state().charge], "2a25": () => robot.address }[this.uuid];
     return wait(Buffer.from(own?.() ?? this.value));
   }
@@ -96,7 +96,7 @@ class Peripheral extends EventEmitter {
     for (const one of this.characteristics) one.subscribed = false;
     this.emit("disconnect");
   }
-  /** A deaf robot takes commands once the right word was written; a wrong one is answered by silence. */
+  /** A deaf robot takes commands only after the right word; it ignores a wrong one. */
   take(characteristic, data) {
     const { gatt } = this.robot;
     this.clock.catch_up();
@@ -175,7 +175,7 @@ class Noble extends EventEmitter {
   async startScanningAsync(services = []) {
     await this.ready;
     this.scanning = true;
-    this.waits ??= setInterval(() => {}, 1 << 30); // a program that looks for a robot is not over
+    this.waits ??= setInterval(() => {}, 1 << 30); // keeps node running while the program scans
     this.emit("scanStart");
     const wanted = (services ?? []).map(short);
     for (const one of this.peripherals)
@@ -206,7 +206,7 @@ process.on("exit", () => {
     console.error(`${robot.name} (${robot.title}): at ${x.toFixed(0)}, ${y.toFixed(0)} cm, faces ${heading.toFixed(0)}°, drove ${way.toFixed(0)} cm in ${t.toFixed(1)} s${driving ? "; it was left driving" : ""}`);
   }
 });
-// A signal that the program does not take ends it, after that.
+// Exit on an unhandled signal, so that the above is printed.
 for (const [signal, number] of [["SIGINT", 2], ["SIGTERM", 15]])
   process.on(signal, () => { if (process.listenerCount(signal) === 1) process.exit(128 + number); });
 module.exports = noble;

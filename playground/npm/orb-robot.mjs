@@ -1,6 +1,6 @@
 #!/usr/bin/env node
-// orb-robot run program.js: runs a program for real robots with virtual ones, and one of Sphero Edu on a virtual robot.
-// orb-robot check and test: its mistakes, and its tests.
+// orb-robot run program.js: runs a program for real robots, or one of Sphero Edu, with virtual robots.
+// orb-robot check and test: check and test programs of Sphero Edu.
 import { spawn } from "node:child_process";
 import { readFileSync, writeFileSync } from "node:fs";
 import { fileURLToPath } from "node:url";
@@ -58,7 +58,7 @@ function read(name) {
     return fail(`${name} cannot be read: ${{ ENOENT: "there is no such file", EISDIR: "it is a folder", EACCES: "it is not yours to read" }[code] ?? code}`, 3);
   }
 }
-/** A call of the engine; what is wrong with its values ends the program. */
+/** Calls the engine; wrong values end the command with a message. */
 const asked = f => {
   try {
     return f();
@@ -83,7 +83,7 @@ const findings_of = (name, source, robot) => ({ name, lines: lines_of(source), f
 
 function known_robot() {
   if (table.robots.some(one => one.name === kind)) return;
-  asked(() => engine.call("robot", { kind })); // says which is meant
+  asked(() => engine.call("robot", { kind })); // its error suggests a name
   fail(`there is no robot ${kind}`);
 }
 
@@ -110,7 +110,7 @@ if (command === "check") {
 let source;
 try {
   source = readFileSync(program, "utf8");
-} catch { /* node says what is wrong with it */ }
+} catch { /* node will say why */ }
 if (source === undefined || !is_edu(source)) {
   for (const name of Object.keys(of_edu)) if (values[name] !== undefined) fail(`--${name} is for programs of Sphero Edu; ${program} ${source === undefined ? "cannot be read" : "is none: it has no function startProgram"}`);
   const env = { ...process.env };
@@ -125,7 +125,7 @@ if (source === undefined || !is_edu(source)) {
   process.exit(await run_edu(source));
 }
 
-/** Its exit code. */
+/** Runs it; resolves to the exit code. */
 async function run_edu(source) {
   const all = findings_of(program, source, kind);
   for (const finding of all.findings) if (finding.severity !== "info") console.error(text_of(program, all.lines, finding));

@@ -7,13 +7,13 @@ const whole = (name, value) => { if (!Number.isSafeInteger(value) || value < 0) 
 const number = (name, value) => { if (!Number.isFinite(value)) throw refused(name, "a number", value); };
 const takes = { kind: text, name: text, fault: text, firmware: text, course: text, seed: whole, x: number, y: number, heading: number, title: text };
 
-/** These values, if each is what its name takes; a TypeError says what it is not. */
+/** Returns the values; throws a TypeError if one does not fit its name. */
 export function checked(values) {
   for (const [name, value] of Object.entries(values)) if (value !== undefined) takes[name]?.(name, value);
   return values;
 }
 
-/** Any bytes as a Uint8Array. */
+/** Converts any kind of bytes to a Uint8Array. */
 function bytes_of(value) {
   if (value instanceof ArrayBuffer) return new Uint8Array(value);
   if (ArrayBuffer.isView(value)) return new Uint8Array(value.buffer, value.byteOffset, value.byteLength);
@@ -27,7 +27,7 @@ export class Robot {
   constructor(call, { robot, ...told }) {
     this.#call = (method, params) => call(method, { robot, ...params });
     Object.assign(this, told); // kind, title, name, address, gatt
-    /** Of the engine's own. */
+    /** The engine's number for it. */
     this.number = robot;
     this.#last = { now: 0, next: null, connected: false, bytes: new Uint8Array() };
   }
@@ -70,7 +70,7 @@ export class Robot {
   reset() { this.#call("robot_reset"); this.#unread = []; }
   /** Copies the robot in its current state; the copy then runs independently. */
   fork() { return new Robot((method, params) => this.#call(method, params), this.#call("robot_fork")); }
-  /** Its path as a drawing, and its life as data for the player of orb's reports. */
+  /** Its path as a drawing, and its run as data for the player of orb's reports. */
   journey(title = this.title) { return this.#call("robot_journey", checked({ title })); }
   close() { this.#call("robot_end"); }
 }

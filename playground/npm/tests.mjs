@@ -1,4 +1,4 @@
-// orb-robot test: reads tests and what they name from the disk, and prints what came of them.
+// orb-robot test: reads tests and the files they name from disk, and prints the results.
 import { readFileSync, readdirSync, statSync } from "node:fs";
 import { join, sep } from "node:path";
 
@@ -9,7 +9,7 @@ const is_test = name => /\.test$/i.test(name);
 const is_program = name => /\.(js|orb|bas|macro)$/i.test(name);
 const slashes = name => name.split(sep).join("/");
 
-/** What is at a path: "folder", "file", or "" for nothing that can be read. */
+/** What is at a path: "folder", "file", or "" if nothing can be read. */
 function kind_at(path) {
   try {
     const found = statSync(path);
@@ -25,7 +25,7 @@ function text_at(path) {
     return undefined;
   }
 }
-/** The tests below a folder, but those of libraries. */
+/** The tests below a folder, except in node_modules. */
 function tests_below(folder) {
   return readdirSync(folder, { withFileTypes: true }).flatMap(entry => {
     const path = join(folder, entry.name);
@@ -34,7 +34,7 @@ function tests_below(folder) {
   }).sort();
 }
 
-/** The files of a request: those given, and whatever they name. */
+/** The files of a request: those given, and all that they name. */
 function gather(call, { names, programs }) {
   const files = Object.fromEntries(names.map(name => [name, text_at(name)])), tried = new Set();
   for (;;) {
@@ -47,7 +47,7 @@ function gather(call, { names, programs }) {
 }
 
 const column_of = (line, bytes) => Buffer.from(line).subarray(0, bytes - 1).toString().length + 1;
-/** Mistakes in tests, as `orb check` tells them. */
+/** Formats findings in tests as `orb check` does. */
 function told({ diagnostics }, files) {
   return diagnostics.map(({ file, line, column, endLine, endColumn, ...one }) => {
     const lines = lines_of(files[file] ?? "");
@@ -55,7 +55,7 @@ function told({ diagnostics }, files) {
   });
 }
 
-/** The exit code. `words`: tests, folders and, with `programs`, further programs. `fail(message, code)` ends. */
+/** Returns the exit code. `words`: tests, folders and, with `programs`, further programs. `fail(message, code)` exits. */
 export async function run_tests({ call, kind, words, programs = [], seeds, only, format = "text", fail }) {
   const further = words.filter(is_program), places = words.filter(word => !is_program(word)), names = [];
   if (further.length && !programs.length) fail(`${further[0]} is a program; name its test, or write --program ${further[0]}`);
