@@ -1,4 +1,4 @@
-// JavaScript programs, as Sphero Edu has them: all of it is loaded when one is opened.
+// Sphero Edu programs, which are JavaScript. Loaded when one is opened.
 
 import table from "edu.json";
 import { check } from "../../edu/check.js";
@@ -11,7 +11,7 @@ import { make_tests } from "./tests.js";
 const usual = "bolt";
 const kinds = ["bolt", "bolt+", "mini", "rvr", "sprk+", "ollie", "r2d2", "bb9e"];
 
-/** What a live run lets somebody hear who wants to: `sounds()` brings what makes sounds, or nothing where they are off. */
+/** Plays the sounds and speech of a live run; `sounds()` returns what loads page/sound.js, or null if sounds are off. */
 const heard = sounds => (what, [words]) => sounds()?.(({ call }) => {
   if (what === "sound" || what === "animation") call(words);
   if (what !== "speak" || !window.speechSynthesis) return;
@@ -20,7 +20,7 @@ const heard = sounds => (what, [words]) => sounds()?.(({ call }) => {
   speechSynthesis.speak(said);
 });
 
-/** `keep()`: the workspace has changed; `sounds()` as in `heard`. */
+/** `keep()` saves the workspace; `sounds()` as in `heard`. */
 export async function set_up_edu({ machine, ball, workspace, keep, sounds }) {
   const kind = () => kinds.includes(workspace().run.robot) ? workspace().run.robot : usual;
   const title_of = name => table.robots.find(one => one.name === name)?.title ?? name;
@@ -41,12 +41,12 @@ export async function set_up_edu({ machine, ball, workspace, keep, sounds }) {
     return Math.min(there.from + Math.max(column, 1) - 1, there.to);
   };
   const say = (text, holes) => fill(t(text), holes);
-  /** Puts another line in, or takes it out. */
+  /** Replaces a line, or deletes it if `text` is blank. */
   const mend = ({ line, text }) => view => {
     const { doc } = view.state, { from, to } = doc.line(line), changes = text.trim() ? { from, to, insert: text } : { from, to: Math.min(to + 1, doc.length) };
     view.dispatch({ changes, userEvent: "input.fix" });
   };
-  /** Of a text, as the editor shows them. */
+  /** The findings of a text, as the editor shows them. */
   function findings(doc) {
     return check(doc.toString(), { table, kind: kind(), say }).map(({ line, column, end_line, end_column, severity, message, help, rule, fix }) => ({
       from: place(doc, line, column), to: place(doc, end_line, end_column), line, severity, source: rule,
@@ -60,10 +60,10 @@ export async function set_up_edu({ machine, ball, workspace, keep, sounds }) {
       look = () => tell(findings(view.state.doc), look);
       return javascript(kit, { table, findings });
     },
-    /** What belongs to a JavaScript program is there where one is open. */
+    /** Shows what only JavaScript programs need if one is open. */
     show(is_open) {
       choice.hidden = !is_open;
-      $("number-form").hidden = is_open; // it has no `input`
+      $("number-form").hidden = is_open; // no `input` in JavaScript
       choice.value = kind();
     },
     ...runs,

@@ -1,11 +1,11 @@
-// Runs in the frame of a JavaScript program, whose origin is nobody's: keeps the worker that the program is in, and
-// passes on what it says: text, once for each question. Nothing else is heard, so that a program can neither flood the
-// page nor hand it anything but text.
+// Runs in the frame of a JavaScript program, which has an opaque origin: keeps the program's worker and passes on one
+// text for each question. Anything else ends the program, so that it can neither flood the page nor send it anything
+// but text.
 
-const most = 4_000_000; // letters of a message
+const most = 4_000_000; // characters in a message
 let port = null, worker = null, is_asked = false;
 
-/** The end of the program, whatever it is doing. */
+/** Ends the program, whatever it is doing. */
 function end(kind, more) {
   worker?.terminate();
   worker = null;
@@ -25,7 +25,7 @@ function hear({ data: { begin, ask, over } }) {
     worker = new Worker(URL.createObjectURL(new Blob([begin], { type: "text/javascript" })));
     worker.onmessage = take;
     worker.onmessageerror = () => end("garbage");
-    // What a program throws it tells itself: this is a text that is none.
+    // The runtime reports what a program throws: here its text did not load.
     worker.onerror = event => {
       event.preventDefault();
       end("broken", { text: event.message ?? "", line: event.lineno ?? 0 });

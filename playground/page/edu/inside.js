@@ -1,9 +1,9 @@
-// In the worker of a JavaScript program, before its text: what it may call, and nothing of a network.
+// Runs in the worker of a JavaScript program before its text: adds what it may call, removes all that reaches a network.
 
 import { edu_program } from "../../edu/program.js";
 
 const post = self.postMessage.bind(self), hear = self.addEventListener.bind(self);
-// The policy of the frame forbids them already.
+// The frame's policy already forbids them.
 for (const name of ["postMessage", "fetch", "XMLHttpRequest", "WebSocket", "WebSocketStream", "WebTransport", "EventSource", "importScripts", "Worker", "SharedWorker",
   "indexedDB", "caches", "BroadcastChannel", "FontFace", "Notification", "close"])
   Object.defineProperty(self, name, { value: undefined });
@@ -22,8 +22,8 @@ const take = edu_program({
     later[later.length] = deed;
     next(0);
   },
-  /** The text of the program follows as a function, as nothing here may make one of a text: it is run once, and then asked where it
-   *  begins. */
+  /** The program's text follows as the function orb_program, as `eval` is forbidden here. The first call runs it, the next
+   *  returns its startProgram. */
   load() {
     const { orb_program } = self;
     if (!orb_program) return start;
@@ -37,6 +37,6 @@ hear("unhandledrejection", event => {
   event.preventDefault();
   const { reason } = event;
   let told = { name: "Error", text: "", stack: "" };
-  try { told = { name: String(reason?.name ?? "Error"), text: String(reason?.message ?? reason), stack: String(reason?.stack ?? "") }; } catch { /* it says nothing of itself */ }
+  try { told = { name: String(reason?.name ?? "Error"), text: String(reason?.message ?? reason), stack: String(reason?.stack ?? "") }; } catch { /* it cannot be read */ }
   take(JSON.stringify({ rejected: told }));
 });

@@ -1,5 +1,4 @@
-// JavaScript in the editor: its colours, words to choose from, and what they mean. What the programs of Sphero Edu call comes
-// from the table of that API.
+// JavaScript in the editor: colours, completions and hovers. What Sphero Edu programs call comes from the table of that API.
 
 import { javascriptLanguage } from "@codemirror/lang-javascript";
 import { syntaxHighlighting, syntaxTree } from "@codemirror/language";
@@ -7,7 +6,7 @@ import { Decoration, EditorView, ViewPlugin, hoverTooltip } from "@codemirror/vi
 import { classHighlighter } from "@lezer/highlight";
 import { t, with_code, element } from "../dom.js";
 
-const quick = 48 * 1024; // longer texts are checked when the typing rests
+const quick = 48 * 1024; // characters; longer texts are checked when typing pauses
 const names = new Set(["VariableName", "VariableDefinition", "PropertyName"]);
 const configuration = {
   comments: { lineComment: "//" }, autoClosingPairs: ["{", "[", "(", "'", '"', "`"].map(open => ({ open })),
@@ -15,11 +14,11 @@ const configuration = {
 };
 const words = "async await break case catch class const continue default do else false finally for function if in let new null of return switch throw true try typeof undefined var while".split(" ");
 
-/** What stands between the parentheses of a call: `heading, speed, duration`. */
+/** The operands of a call as text: `heading, speed, duration`. */
 const operands_of = ({ operands = [] }) => operands.map(one => one.presence === "optional" ? `${one.name}?` : one.presence === "rest" ? `…${one.name}` : one.name).join(", ");
 const range_of = ({ least, most, type, unit }) => (type === "number" || type === "whole") && (least || most) && most < 999_999 ? `${least} – ${most}${unit ? ` ${unit}` : ""}` : unit;
 
-/** A row in a sentence or two: what somebody reads who asks for it. */
+/** The documentation of a row of the table. */
 function told(row) {
   const ranges = (row.operands ?? []).map(one => [one.name, range_of(one)]).filter(([, range]) => range);
   return element("div", { class: "cm-lsp-documentation" },
@@ -29,7 +28,7 @@ function told(row) {
     ...row.example ? [element("pre", {}, row.example)] : []);
 }
 
-/** `api`: rows by name. */
+/** Completions. `api`: rows by name. */
 function offers_of(api, table) {
   const calls = table.functions.map(row => ({ label: row.name, type: "function", detail: `(${operands_of(row)})`, info: () => told(row), boost: 1 }));
   const objects = table.objects.map(({ name }) => ({ label: name, type: "enum" }));
@@ -52,7 +51,7 @@ function offers_of(api, table) {
   };
 }
 
-/** The names of the API in their own colour. */
+/** Colours the names of the API. */
 const robots_words = api => ViewPlugin.fromClass(class {
   constructor(view) { this.decorations = this.find(view); }
   update(update) {
@@ -69,7 +68,7 @@ const robots_words = api => ViewPlugin.fromClass(class {
 }, { decorations: plugin => plugin.decorations });
 const robots_mark = Decoration.mark({ class: "tok-function tok-robots" });
 
-/** `kit`: of the editor. `findings(text)` of a text, as the editor shows them. */
+/** The extension for JavaScript, made from the editor's kit. `findings(doc)` checks a text. */
 export function javascript({ typing, tell, view }, { table, findings }) {
   const api = new Map([...table.objects, ...table.events, ...table.functions].map(row => [row.name, row]));
   const look = () => tell(findings(view.state.doc), look);

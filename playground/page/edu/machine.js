@@ -1,25 +1,25 @@
-// Runs of JavaScript programs, in the worker beside the engine: what a program did goes to a virtual robot there, at once or
-// in the time of whoever looks on, or to a real one on a link of the page, which the virtual one then shows. The program
-// itself is elsewhere (sandbox.js); what it says comes in here as text.
+// Runs of JavaScript programs, in the engine's worker: a program drives a virtual robot there, at once or in real time, or a
+// real one on a link of the page, which the virtual one then shows. The program itself is elsewhere (sandbox.js); its
+// messages come in here as text.
 
 import { Host, is_print } from "../../edu/host.js";
 
 const endless = 1e9; // seconds
-const patience = 0.1; // seconds by which a run that lags behind lets its clock stand
-const near = 0.5; // centimetres that are no drive
+const patience = 0.1; // seconds that a run may lag before its clock waits
+const near = 0.5; // centimetres; less is not a drive
 
 const number_of = ([r, g, b]) => r << 16 | g << 8 | b;
 const hex = rgb => number_of(rgb).toString(16).padStart(6, "0").toUpperCase();
 const microseconds = seconds => Math.round(seconds * 1e6);
 const none = () => ({ pose: { t: [], x: [], y: [], heading: [], speed: [] }, led: { t: [], rgb: [] }, backled: { t: [], value: [] }, matrix: { t: [], pixels: [] }, line: { t: [], file: [], line: [] }, events: [] });
-/** What a person hears and sees of a program beside its robot, as it stands in the list of events. */
+/** Output for people rather than the robot, as the list of events shows it. */
 const words_of = { __proto__: null, print: text => text, speak: text => text, sound: path => `♪ ${path}`, animation: path => `★ ${path}`, note: () => "" };
 
-/** `call` of the engine; `post(event, data)` tells the page. */
+/** `call` calls the engine; `post(event, data)` sends to the page. */
 export function make_machine({ call, post }) {
   let run = null;
 
-  /** How the robot is, as rows of a report: what is new since the last picture. */
+  /** The state of the robot as rows of a report, with what has changed since the last picture. */
   function picture({ robot, shown }) {
     const state = call("robot_state", { robot }), more = none(), t = microseconds(state.t);
     const rgb = number_of(state.rgb), pixels = state.matrix?.map(hex).join("");
@@ -40,7 +40,7 @@ export function make_machine({ call, post }) {
     const { x, y, heading, speed } = state;
     post("frame", { ms: state.t * 1000, pose: { x, y, heading, speed }, prints: fresh.filter(({ kind }) => kind === "print").map(({ text }) => `${text}\n`).join(""), more });
   }
-  /** How far the run may be, `until` at most, once it is time for that. */
+  /** Waits until it is time for `until`, in seconds of the run. */
   async function pace(now, until) {
     const mine = run;
     post_frame();
@@ -56,7 +56,7 @@ export function make_machine({ call, post }) {
     for (const { kind } of said) made.counts[kind] = (made.counts[kind] ?? 0) + 1;
     return made;
   }
-  /** A sentence of how it went, as runs of other programs have it; none where a mistake says why it did not move. */
+  /** How it went, in the words of other runs; empty if an error explains why it did not move. */
   function story(over) {
     const { x, y, way } = call("robot_state", { robot: run.robot });
     if (way < near) return over.how === "error" ? "" : "did not move";
@@ -73,7 +73,7 @@ export function make_machine({ call, post }) {
     if (run) call("robot_end", { robot: run.robot });
     run = null;
   }
-  /** A robot of the engine, and who believes nothing that its program says. */
+  /** Makes a robot, and the Host that trusts nothing its program says. */
   function make_run({ table, kind, advertised, seed, title, course, limit, live, trial, asks = call }) {
     forget();
     const made = trial !== undefined ? call("trial_robot", { number: trial, kind })
@@ -87,19 +87,19 @@ export function make_machine({ call, post }) {
     };
     run.host = new Host({ call: asks, robot: run.robot, table, limit, on });
   }
-  /** The first words for the program. */
+  /** The first message for the program. */
   function first_words() {
     const { host, table, kind, seed } = run, ask = host.begin({ source: "", table, kind, seed });
     run.origin = microseconds(call("robot_state", { robot: run.robot }).t);
     return ask;
   }
 
-  // -- a robot on a link of the page: time is that of the page, which asks for every step --
-  /** What the host asks of the engine. */
+  // -- a robot on a link of the page, which keeps the time and asks for every step --
+  /** Stands in for the engine where the host calls it. */
   const on_link = {
     __proto__: null,
     edu_start: () => run.felt,
-    /** Done with the next step of the page. */
+    /** Settles with the page's next step. */
     edu_step({ did, until }) {
       if (!run.host.over) return new Promise(done => { run.asked = { did, until, done }; });
       run.last = did;
@@ -108,7 +108,7 @@ export function make_machine({ call, post }) {
     robot_state: () => null,
     edu_end: () => ({}), // the page's steps do it
   };
-  /** Tells the program what has come of it, and what has happened since it was told last. */
+  /** Answers the program with the new state and the events since the last answer. */
   function tell({ now, state, events }) {
     run.felt = { now, state };
     run.happened.push(...events);
@@ -119,7 +119,7 @@ export function make_machine({ call, post }) {
   }
 
   return {
-    /** The first words for the program. `stimuli`, `course`: the world around the robot; that of a case comes with its number, `trial`. */
+    /** Returns the first message for the program. `stimuli` and `course` are its world; case number `trial` has its own. */
     begin({ stimuli = [], ...more }) {
       make_run(more);
       const ask = first_words();
@@ -127,13 +127,13 @@ export function make_machine({ call, post }) {
       run.began = performance.now() / 1000;
       return { ask, report: report() };
     },
-    /** Takes the robot on a link of the page, by the name that it shows: its first wish. */
+    /** Takes the robot on a link of the page, by its advertised name; returns the first wish. */
     take(more) {
       make_run({ ...more, limit: endless, live: true, asks: (method, params) => on_link[method](params) });
       return call("edu_start", { robot: run.robot, linked: true });
     },
-    /** What came over the link, and `stop`; gives what is to be sent: a `wish` until the robot is ready, then `ask`, the first
-     *  words for the program, and then as drive_step of the engine. */
+    /** Takes what came over the link, and `stop`. Returns a `wish` until the robot is ready, then `ask`, the first message
+     *  for the program, and then what drive_step of the engine returns. */
     link({ stop, frame, ...came }) {
       const { robot, host } = run;
       if (!run.felt) {
@@ -152,7 +152,7 @@ export function make_machine({ call, post }) {
         } catch (error) {
           run.trouble = error.message;
           host.end("stopped");
-          came = { at: came.at }; // it may be reached again
+          came = { at: came.at }; // the link may work again
         }
       answer ??= call("edu_end", { robot, did: run.last.splice(0), ...came });
       if (frame) post_frame();
@@ -160,7 +160,7 @@ export function make_machine({ call, post }) {
       run.asked?.done({ ...run.felt, events: [] });
       return { trouble: run.trouble, ...answer, ...conclude() };
     },
-    /** What the program said; the next words for it, or `over`. */
+    /** Takes a message of the program; returns `ask`, the next one for it, or `over`. */
     async answer({ text }) {
       const mine = run;
       if (!mine) return {};
@@ -170,13 +170,13 @@ export function make_machine({ call, post }) {
       mine.host.end("error", { rule: "forged", line: 0, column: 1, holes: {} }); // unless it has ended
       return mine.felt ? {} : conclude();
     },
-    /** Ends the run, whatever the program does: `how` as the host says it. */
+    /** Ends the run, whatever the program does; `how` as in Host.over. */
     end({ how, error }) {
       if (!run) return {};
       run.host.end(how, error);
-      return run.felt ? {} : conclude(); // one on a link still has to be stopped
+      return run.felt ? {} : conclude(); // a robot on a link must still be stopped
     },
-    /** The verdict on the case that is over; `error`: why the program stopped. */
+    /** Judges the case that is over; `error`: why the program stopped. */
     judge({ error }) {
       const { robot, host } = run, { verdict } = call("trial_judge", { robot, how: host.over.how, seconds: host.now, error }), made = report();
       forget();

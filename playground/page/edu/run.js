@@ -1,4 +1,4 @@
-// Runs of JavaScript programs: the program is in a sandbox of the page, the robot beside the engine.
+// Runs of JavaScript programs: the program is in a sandbox of the page, the robot in the engine's worker.
 
 import { check, tree_of } from "../../edu/check.js";
 import { prepare } from "../../edu/prepare.js";
@@ -6,23 +6,23 @@ import { words_of } from "../../edu/texts.js";
 import { announce } from "../dom.js";
 import { Ended, Sandbox, patience_s } from "./sandbox.js";
 
-/** What the runtime would have said of a program that the sandbox had to end. */
+/** The rule of the error for each reason of the sandbox to end a program. */
 const reasons = { __proto__: null, busy: "silent", broken: "exception" };
-/** Why a sandbox has ended. */
+/** The error of a run whose sandbox has ended. */
 export const reason_of = ({ kind, line = 0, text = "" }, n = patience_s) => ({ rule: reasons[kind] ?? "forged", line, column: 1, holes: { n, text } });
 const seconds_of = text => { const [, number, unit] = /^(\d+)(ms|s|min)$/.exec(text) ?? [0, 60, "s"]; return number * { ms: .001, s: 1, min: 60 }[unit]; };
-/** Of a script of what happens to a ball. */
+/** The lines of a stimulus script, without comments. */
 const lines_of = script => script.split("\n").map(line => line.replace(/#.*/, "").trim()).filter(Boolean);
 const endless = 1e9; // seconds
-const patience = 400; // milliseconds that the engine has to end a run itself
-const patience_driving_s = 2; // of a program that drives a robot, which drives on meanwhile
+const patience = 400; // milliseconds for the engine to end a run itself
+const patience_driving_s = 2; // shorter, as a real robot drives on meanwhile
 
-/** `kind()` of robot that is chosen, with its `title_of()`; `on_heard(what, values)`: of a live run. */
+/** `kind()`: the chosen robot, with its `title_of()`; `on_heard(what, values)`: output of a live run. */
 export function make_runs({ machine, ball, table, kind, title_of, say, on_heard }) {
   const edu = (deed, params = {}) => machine.call("edu_run", { deed, ...params });
   machine.on("heard", ({ what, values }) => on_heard(what, values));
 
-  /** How a run ended, as that of any other program is told. */
+  /** How a run ended, in the form of the engine's runs. */
   function ending_of({ over, seconds, story }, name) {
     const time = `after ${seconds.toFixed(3).replace(/0{1,2}$/, "")} s of robot time`;
     const manner = { done: "ended", limit: "stopped by the time limit", stopped: "stopped" }[over.how] ?? "stopped";
@@ -30,7 +30,7 @@ export function make_runs({ machine, ball, table, kind, title_of, say, on_heard 
     if (over.how === "error") {
       ending.faults = [{ file: name, line: over.error.line, message: words_of(over.error, say) }];
     }
-    if (over.how !== "done") window.speechSynthesis?.cancel(); // what it has yet to say
+    if (over.how !== "done") window.speechSynthesis?.cancel(); // what it has not said yet
     return ending;
   }
   function conclude(over, name, lives) {
@@ -38,13 +38,13 @@ export function make_runs({ machine, ball, table, kind, title_of, say, on_heard 
     ball.conclude({ ending: ending_of(over, name), report: over.report }, !lives);
     if (!lives) announce(over.prints);
   }
-  /** Where the program is; throws the mistake of one that is none. */
+  /** Makes a sandbox for a program; throws its syntax error. */
   function sandbox_of(name, source) {
     const mistake = check(source, { table, kind: kind(), say }).find(one => one.rule === "syntax");
     if (mistake) throw Object.assign(new Error(mistake.message), { findings: { diagnostics: [{ ...mistake, file: name }] } });
     return new Sandbox(prepare(source, tree_of(source)));
   }
-  /** `asked`: as `request` of ball.js makes it. Settles when the run is over. */
+  /** `asked`: from request() of ball.js. Settles when the run is over. */
   async function start(asked, lives) {
     const [name] = asked.names, source = asked.files[name];
     ball.set_busy(lives ? "live" : "instant");
@@ -57,7 +57,7 @@ export function make_runs({ machine, ball, table, kind, title_of, say, on_heard 
     } catch (mistake) {
       return ball.fail(mistake);
     }
-    /** Whatever it is doing; gives the end of the run. */
+    /** Stops the program, whatever it is doing, and shows how the run ended. */
     const stop = async (how, error) => {
       sandbox.end();
       const { over } = await Promise.race([edu("end", { how, error }).catch(() => ({})), new Promise(done => setTimeout(done, patience, {}))]);
@@ -100,11 +100,11 @@ export function make_runs({ machine, ball, table, kind, title_of, say, on_heard 
       ball.fail(error);
     }
   }
-  /** What drives a robot, for page/drive.js. */
+  /** The driver of a program, for page/drive.js. */
   function driver(asked) {
     const [name] = asked.names, sandbox = sandbox_of(name, asked.files[name]);
     async function talk(ask) {
-      let seconds; // as many as it takes to begin: it has not driven yet
+      let seconds; // at first the usual ones: it has not driven yet
       try {
         for (; ask; seconds = patience_driving_s) ({ ask } = await edu("answer", { text: await sandbox.ask(ask, seconds) }));
       } catch (error) {

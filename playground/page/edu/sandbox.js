@@ -1,16 +1,16 @@
-// A JavaScript program of anybody, where it can reach nothing: in a worker within a frame whose origin is nobody's, which
-// may load nothing and has no network. It is asked and answers, in turns; one that does not answer is ended.
+// Isolates an untrusted JavaScript program: in a worker within a frame with an opaque origin, which may load nothing and has
+// no network. The program answers one question at a time, and is ended if it does not.
 
 import frame_script from "text:./frame.js";
 import inside from "text:./inside.js";
 import { element } from "../dom.js";
 
-/** Seconds until a program that has not answered is one that never will. */
-export const patience_s = 10; // a slow computer may need some for the first
+/** Seconds without an answer after which a program is ended. */
+export const patience_s = 10; // a slow computer may need several for the first answer
 const policy = `default-src 'none'; script-src '${FRAME_HASH}'; worker-src blob:; base-uri 'none'; form-action 'none'`;
 
-/** Why a program was ended: `kind` is "busy" (it has not answered), "flood" (it said something unasked), "large",
- *  "garbage" (what it said is no text), "broken" (its own text is no program; with `text` and `line`), or "stopped". */
+/** Why a program was ended: `kind` is "busy" (no answer), "flood" (a message without a question), "large",
+ *  "garbage" (not a text), "broken" (its text did not load; with `text` and `line`), or "stopped". */
 export class Ended extends Error {
   constructor(kind, more = {}) {
     super(kind);
@@ -21,9 +21,9 @@ export class Ended extends Error {
 export class Sandbox {
   #frame; #port = null; #begin = ""; #asked = null; #timer = 0; #over = null;
 
-  /** `source`: the text of the program as playground/edu/prepare.js gives it; it has been parsed. */
+  /** `source`: the program's text from playground/edu/prepare.js, already parsed. */
   constructor(source) {
-    // In one line before the program's first, so that the lines keep their numbers.
+    // On the program's first line, so that the lines keep their numbers.
     this.#begin = `${inside};self.orb_program=function(){${source}\n;return typeof startProgram==="function"?startProgram:null}\n//# sourceURL=program.js`;
   }
   async #open() {
@@ -38,7 +38,7 @@ export class Sandbox {
     port1.onmessage = ({ data }) => this.#hear(data);
     frame.contentWindow.postMessage("", "*", [port2]);
   }
-  /** Asks the program, and gives what it answers within these seconds; throws `Ended`. */
+  /** Asks the program and returns its answer; throws `Ended`, as after `seconds` without one. */
   async ask(text, seconds = patience_s) {
     if (!this.#port) await this.#open();
     if (this.#over) throw this.#over;

@@ -1,4 +1,4 @@
-// Tests of JavaScript programs in the page: each case runs in a sandbox, the robot and the judge are beside the engine.
+// Tests of JavaScript programs in the page: each case runs in a sandbox; robot and judge are in the engine's worker.
 
 import { check, obstacle_in, tree_of } from "../../edu/check.js";
 import { prepare } from "../../edu/prepare.js";
@@ -8,11 +8,11 @@ import { Ended, Sandbox } from "./sandbox.js";
 
 const key_of = ({ file, test, program }) => JSON.stringify([file, test, program]);
 
-/** `kind()` of robot, as in run.js. */
+/** Parameters as in run.js. */
 export function make_tests({ machine, ball, table, kind, say }) {
   const edu = (deed, params = {}) => machine.call("edu_run", { deed, ...params });
 
-  /** How a program drives until it is over. */
+  /** Runs a program until it is over. */
   async function drive(sandbox, begun) {
     let { ask } = await edu("begin", begun);
     for (;;) {
@@ -29,10 +29,11 @@ export function make_tests({ machine, ball, table, kind, say }) {
     }
   }
 
-  /** Tests any programs as the engine's `test`: {results, report_of, findings}. `report_of(test)`: of its first run, or of the first that
-   *  failed; undefined where the engine can repeat it. `findings`: what keeps programs from running; null for nothing. */
+  /** Tests any programs like the engine's `test`: {results, report_of, findings}. `report_of(test)`: the report of its first
+   *  failed run, else of its first; undefined if the engine can repeat it. `findings`: what keeps programs from running, or
+   *  null. */
   return async function test({ files, names }) {
-    if (ball.busy && ball.busy !== "test") throw new Error(""); // whose robot is in the same worker
+    if (ball.busy && ball.busy !== "test") throw new Error(""); // its robot is in the same worker
     ball.foreign_run?.stop();
     const { cases, sources } = await machine.call("trials_start", { files, names }), mistakes = {}, runs = new Map();
     let sandbox = null;
