@@ -1,5 +1,5 @@
-// Writes the examples and lessons of the repository: examples.json says what the cards show, with the path that each
-// drives; examples/ID.json holds what it opens with, all files that it needs in one folder.
+// Writes the examples and lessons of the repository: examples.json has what the cards show, with the path of each program;
+// examples/ID.json has all files that one opens with, in one folder.
 // usage: node playground/examples.mjs ROOT FOLDER ENGINE, the last a folder with the engine as a package
 import { existsSync, mkdirSync, readdirSync, readFileSync, writeFileSync } from "node:fs";
 import { dirname, join, resolve } from "node:path";
@@ -118,7 +118,7 @@ function lesson(name) {
   };
 }
 
-/** The same job in JavaScript, as Sphero Edu has it. */
+/** The same job as a Sphero Edu program. */
 function twin({ id, path, color }) {
   const place = join(folder, id, "edu"), readme = read(join(place, "README.md"));
   return {
@@ -133,9 +133,9 @@ const examples = Object.keys(places).filter(name => order.includes(ending(name))
 const lessons = readdirSync(join(folder, "lessons")).filter(name => /^\d/.test(name)).sort().map(lesson);
 const twins = lessons.filter(({ id }) => existsSync(join(folder, id, "edu"))).map(twin);
 
-/** Writes what it opens with, and returns what the page knows of it before. `names`: its other files, where an address names them. */
+/** Writes what an item opens with; returns what the page knows before. `names`: other files, which an address may name. */
 function parted({ id, title, summary, language, path, color, readme, ...others }) {
-  // A twin's task is one of its own, as a teacher writes it.
+  // A twin has its own task, like a teacher's lesson.
   const file = join(out, "examples", `${id}.json`), whole = others.task ? others : { ...others, readme };
   mkdirSync(dirname(file), { recursive: true });
   writeFileSync(file, JSON.stringify(whole));

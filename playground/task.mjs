@@ -1,9 +1,9 @@
 // Prepares a task of examples/lessons for the page.
 
-/** In a single folder there is no parent. */
+/** Drops `../../` and a folder after it: all files are in one folder. */
 export const flat = text => text.replaceAll(/\.\.\/\.\.\/(?:\w+\/)?/g, "");
 
-/** Replaces a block by the comment `page:` after it, and terminal commands by buttons. */
+/** Replaces a block with the `page:` comment after it, and drops terminal commands: the page has buttons. */
 export function for_page(readme) {
   const blocks = flat(readme).trim().split(/\n\n+/), said = block => /^<!-- page: ([^]*) -->$/.exec(block ?? "")?.[1];
   return blocks.flatMap((block, i) => {
@@ -12,7 +12,7 @@ export function for_page(readme) {
   }).map(unwrapped).join("\n\n") + "\n";
 }
 
-/** The paragraph with the job, and the list that it may lead to. */
+/** The paragraph with the job, and the list after it if it leads to one. */
 export function job_in(task) {
   const blocks = task?.trim().split("\n\n") ?? [], at = blocks.findIndex(block => /^\*\*[^*]+:\*\*/.test(block));
   return at < 0 ? undefined : blocks.slice(at, at + (blocks[at].endsWith(":**") ? 2 : 1)).join("\n\n");

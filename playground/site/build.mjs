@@ -25,8 +25,8 @@ const places = {
     build.onResolve({ filter: /^(\.\/orb\.mjs|edu\.json|marked)$/ }, ({ path }) => ({ path: stand_ins[path] }));
   },
 };
-/** What only the language of JavaScript needs of the editor's libraries is a copy of its own: the page has no more of them for it.
- *  The editor itself, `@codemirror/state` and `view`, is the page's, which hands out what is asked for (page/editor_parts.js). */
+/** Bundles page/edu/javascript.js with separate copies of the editor's libraries, so that the page's script does not grow.
+ *  It shares the editor itself, `@codemirror/state` and `view`, with the page (page/editor_parts.js). */
 const copies = {
   name: "copies",
   setup(build) {
@@ -41,8 +41,8 @@ const copies = {
     build.onLoad({ filter: /.*/, namespace: "own" }, ({ path }) => ({ contents: read(path), loader: "js", resolveDir: dirname(join(root, path)) }));
   },
 };
-/** A script that stands in what is no module of the page, another one's frame and worker; in one line, in which no text between
- *  backticks may end one: the lines of what follows keep their numbers. */
+/** Bundles a script for a JavaScript program's frame or worker into one line, so that the lines after it keep their numbers;
+ *  template literals could break it. */
 async function script_of(path) {
   const { outputFiles: [{ text }] } = await esbuild.build({ entryPoints: [path], bundle: true, write: false, minify: true, format: "iife", target: "es2022", supported: { "template-literal": false }, legalComments: "none" });
   if (/\n./.test(text)) throw new Error(`${path} is more than one line`);
@@ -50,9 +50,9 @@ async function script_of(path) {
 }
 const script_paths = ["frame", "inside"].map(name => join(root, `playground/page/edu/${name}.js`));
 const scripts = new Map(await Promise.all(script_paths.map(async path => [path, await script_of(path)])));
-/** What the policy of the page calls the one script that stands in a document instead of a file. */
+/** The hash that allows the frame's inline script in the page's policy. */
 const frame_hash = `sha256-${createHash("sha256").update(scripts.get(script_paths[0])).digest("base64")}`;
-/** `text:./name.js` is such a script, as a text. */
+/** `text:./name.js` imports such a script as a text. */
 const texts = {
   name: "texts",
   setup(build) {
@@ -64,7 +64,7 @@ const shared = {
   outdir: out, absWorkingDir: root, write: false, bundle: true, format: "esm", target: "es2022", external: ["node:*"], plugins: [places, copies, texts],
   metafile: true, legalComments: "none", logLevel: "warning", splitting: true, chunkNames: "[name]-[hash]",
 };
-// What the page imports when it is asked for becomes a file of its own; one that is imported at once is loaded at once.
+// What the page imports on demand becomes a separate file.
 const page = await esbuild.build({ ...shared, entryPoints: [join(root, "playground/start.js"), join(root, "playground/page.js")], define: { FRAME_HASH: JSON.stringify(frame_hash) } });
 const rest = readFileSync(join(root, "build/wasm/rest.wasm"));
 const rest_name = `orb-rest-${createHash("sha256").update(rest).digest("hex").slice(0, 8)}.wasm`; // a page never loads that of another build
@@ -74,13 +74,13 @@ const parts_of_editor = read("playground/page/editor_parts.js");
 for (const { text } of page.outputFiles)
   for (const [, name] of text.matchAll(/\bimport_(?:state|view)\d*\.(\w+)/g))
     if (!new RegExp(`\\b${name}\\b`).test(parts_of_editor)) throw new Error(`playground/page/editor_parts.js lacks ${name}`);
-// Terser takes twenty times as long as esbuild, and makes the page's script lighter by a thirtieth.
+// Terser takes twenty times as long as esbuild, but saves a thirtieth of the page's script.
 for (const { path, text } of [...page.outputFiles, ...worker.outputFiles])
   writeFileSync(path, (await minify(text, { module: true, ecma: 2020, compress: { passes: 3 } })).code);
 const parts = Object.fromEntries(Object.entries({ ...page.metafile.outputs, ...worker.metafile.outputs }).map(([path, { imports }]) => [relative(out, resolve(root, path)),
   imports.filter(({ kind }) => kind === "import-statement").map(one => relative(out, resolve(root, one.path)))]));
 const at_once = new Set(["start.js", "page.js"]);
-for (const name of at_once) for (const one of parts[name]) at_once.add(one); // a set goes on to what is added
+for (const name of at_once) for (const one of parts[name]) at_once.add(one); // the loop also visits what it adds
 const on_demand = new Set([rest_name, ...Object.keys(parts).filter(name => name !== "worker.js" && !at_once.has(name))]);
 const styled = (...paths) => esbuild.transformSync(paths.map(read).join("\n"), { loader: "css", minify: true }).code;
 writeFileSync(join(out, "blocks.css"), styled("playground/page/blocks/blocks.css"));

@@ -1,4 +1,4 @@
-// The pages below docs/ as pages of a site; the programs in them open in the playground.
+// Builds a site from the pages below docs/; the programs in them open in the playground.
 
 import { copyFileSync, existsSync, mkdirSync, readFileSync, readdirSync, rmSync, writeFileSync } from "node:fs";
 import { basename, dirname, join, posix, relative } from "node:path";
@@ -25,7 +25,7 @@ class Pages {
   constructor(root, out) {
     this.root = root;
     this.out = out;
-    // The navigation stands for docs/README.md, whose place the README has.
+    // The navigation replaces docs/README.md; the README takes its place.
     this.sources = ["README.md", "examples/lessons/README.md", ...this.below("docs").filter(path => path !== "docs/README.md")].filter(path => existsSync(join(root, path)));
     for (const lesson of readdirSync(join(root, "examples/lessons")).sort())
       if (existsSync(join(root, "examples/lessons", lesson, "README.md"))) this.sources.push(`examples/lessons/${lesson}/README.md`);

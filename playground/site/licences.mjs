@@ -6,7 +6,7 @@ import { join } from "node:path";
 /** Libraries linked into orb.wasm, by Debian package; emscripten provides the C and C++ libraries. */
 const linked = ["tao-pegtl-dev", "nlohmann-json3-dev", "libexpected-dev", "libfmt-dev", "libpugixml-dev", "libpcre2-dev", "emscripten"];
 
-/** `inputs`: the files that were bundled, by their paths, perhaps behind a name of esbuild's for how they were. */
+/** `inputs`: the bundled files by path, which may follow the name of an esbuild namespace. */
 export function licences(root, inputs) {
   const packages = new Set(Object.keys(inputs).map(path => /playground\/node_modules\/(?:@[^/]+\/)?[^/]+/.exec(path)?.[0]).filter(Boolean));
   const texts = [`orb\n\n${readFileSync(join(root, "LICENSE"), "utf8")}`];
