@@ -1,4 +1,4 @@
-// The page's end of the worker.
+// The page's side of a worker.
 
 import { OrbError } from "./error.js";
 
@@ -7,7 +7,7 @@ const patience = 10_000; // milliseconds of silence after which an engine counts
 export class Client {
   #url; #worker; #late = 0; #broken = null; #next = 1; #open = new Map(); #listeners = new Map();
 
-  /** Settles when the wasm is loaded; rejects if it cannot be. restart() makes a new one. */
+  /** Settles when the wasm is loaded; rejects if loading fails. restart() replaces it. */
   ready;
 
   /** `early`: a worker that start.js started, and the events it has sent since. */
@@ -78,7 +78,7 @@ export class Client {
     return () => this.#listeners.get(event).delete(listener);
   }
 
-  /** Ends everything at once and starts anew; the language server then has no open documents. */
+  /** Ends everything at once and starts again; the language server then has no open documents. */
   restart() {
     clearTimeout(this.#late);
     this.#worker.terminate();

@@ -78,9 +78,9 @@ const basics = [
 const severities = [, "error", "warning", "info", "hint"];
 const reconnects = 3; // a server that keeps crashing is not restarted
 
-/** `language`: the client of a worker; `files()`: all texts that there are; `on_change(name, text)`,
- *  `on_findings(name, list)`, `say(words, look)`. `foreign(name)`: for a file in a language that the server does not know what brings
- *  its extension, made of what an editor has for any language. */
+/** `language`: the client of a worker; `files()`: all texts; `on_change(name, text)`, `on_findings(name, list)`,
+ *  `say(words, look)`. `foreign(name)`: for a file in a language that the server does not know, a function that loads its
+ *  extension, given what the editor offers any language; null for other files. */
 export function make_editor({ parent, nonce, language, files, on_change, on_findings, say, foreign }) {
   let view = null, shown = "", client = null, lost = 0;
   const states = new Map(); // of files shown before: text, selection and history
@@ -139,7 +139,7 @@ export function make_editor({ parent, nonce, language, files, on_change, on_find
 
   // -- findings and their fixes --
   let findings = [], say_findings = () => {};
-  /** `again()` tells them in another language. */
+  /** Shows findings; `again()` shows them in another language. */
   function tell(found, again) {
     findings = found;
     say_findings = again;
@@ -235,7 +235,7 @@ export function make_editor({ parent, nonce, language, files, on_change, on_find
     forget(name) { states.delete(name); if (shown === name) shown = ""; },
     /** Replaces the text in one undoable step. */
     replace(text) { view.dispatch({ changes: { from: 0, to: view.state.doc.length, insert: text } }); },
-    /** The same for the parts that differ; one undo step for each, unless somebody is `typing` it. */
+    /** Replaces only what differs; one undo step for each call, unless somebody is `typing`. */
     put(text, typing) {
       const { doc } = view.state, old = doc.toString();
       if (text === old) return;
@@ -246,12 +246,12 @@ export function make_editor({ parent, nonce, language, files, on_change, on_find
     },
     undo: () => undo(view),
     redo: () => redo(view),
-    /** The editor was hidden; `line` is the one to show. */
+    /** Call this after the editor was hidden; `line` is the one to show. */
     shown_again(line) {
       view.requestMeasure();
       if (line) this.go_to(line);
     },
-    /** The page is in another language. */
+    /** Call this when the page's language has changed. */
     say_anew: () => say_findings(),
     focus: () => view.focus(),
     format: () => formatDocument(view),

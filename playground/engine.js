@@ -10,7 +10,7 @@ const to_json = value => JSON.stringify(value, (key, one) => one instanceof Uint
 const from_json = text => JSON.parse(text, (key, one) =>
   one !== null && typeof one === "object" && typeof one.hex === "string" && Object.keys(one).length === 1 ? bytes_of(one.hex) : one);
 
-/** Loads the file next to this one. */
+/** Instantiates the orb.wasm next to this file. */
 export async function instance_of(imports) {
   const url = new URL("./orb.wasm", import.meta.url);
   if (url.protocol === "file:" && typeof process === "object") {

@@ -40,7 +40,7 @@ class Inbox {
   }
 }
 
-/** The result of `promise`, or `error` after so many milliseconds. */
+/** Settles like `promise`, or rejects with `error` after `ms`. */
 export const within = (promise, ms, error) => {
   let timer;
   const late = new Promise((_, failed) => { timer = setTimeout(() => failed(error), ms); });
@@ -48,8 +48,8 @@ export const within = (promise, ms, error) => {
 };
 
 /**
- * Returns the result of `deed`, repeated after each of `pauses_ms` until it succeeds; `failed(error, last)` may end
- * that.
+ * Returns the result of `deed`, retried after each of `pauses_ms` until it succeeds; `failed(error, last)` may throw
+ * to give up.
  */
 async function patiently(pauses_ms, deed, failed) {
   for (let n = 0; ; ++n) {
@@ -62,11 +62,11 @@ async function patiently(pauses_ms, deed, failed) {
   }
 }
 
-/** Asks the person for a port: call it in a click handler. */
+/** Asks the user for a port: call it in a click handler. */
 export const choose_serial = () => navigator.serial.requestPort();
 
 /**
- * Opens a serial port: a classic ball over Bluetooth, or an adapter. Asks the person if none is given. A link has
+ * Opens a serial port: a classic ball over Bluetooth, or an adapter. Asks the user if none is given. A link has
  * `write(bytes)`, `read(ms, signal)` and `close()`; its errors have `kind` ("closed", "broken") and `message`. `orb`
  * supplies the timeouts.
  */
@@ -120,7 +120,7 @@ export async function serial_link(orb, port) {
 const kinds_of = (links, which) => which === "all" ? [links.ble, links.newer] : [links.ble];
 
 /**
- * Asks the person for a robot: call it in a click handler. `which`: those that store programs, or all that can be
+ * Asks the user for a robot: call it in a click handler. `which`: those that store programs, or all that can be
  * driven from here.
  */
 export async function choose_bluetooth(orb, which = "ble") {
@@ -131,7 +131,7 @@ export async function choose_bluetooth(orb, which = "ble") {
   });
 }
 
-/** Opens a robot over Bluetooth LE. `orb` knows how to open one to commands. Asks the person if none is given. */
+/** Opens a robot over Bluetooth LE. `orb` knows what makes one take commands. Asks the user if none is given. */
 export async function bluetooth_link(orb, device, which = "ble") {
   const links = await orb.call("links");
   const { pauses_ms } = links;
@@ -166,7 +166,7 @@ export async function bluetooth_link(orb, device, which = "ble") {
     kind: "ble",
     name: device.name ?? "",
     write: bytes => written = written ? written.catch(() => {}).then(() => write(bytes)) : write(bytes),
-    /** The same robot once more, after it was lost. */
+    /** A new link to the same robot, after it was lost. */
     again: () => bluetooth_link(orb, device, which),
     read: (ms, signal) => inbox.read(ms, signal),
     async close() {
@@ -209,7 +209,7 @@ export async function deliver(orb, link, request, { on_status = () => {}, signal
   const begin = performance.now();
   const now = () => performance.now() - begin;
   let told_to_stop = false;
-  /** Runs once per signal; the clean-up still completes. */
+  /** True once per signal, so that the clean-up still completes. */
   const stopped = () => {
     if (told_to_stop || !signal?.aborted) return false;
     return told_to_stop = true;

@@ -133,7 +133,7 @@ function tell_count() {
     told_count = words;
   }, 1500);
 }
-/** The mistake that prevents a run may be in a file that is not shown. */
+/** Shows the error that prevents a run; it may be in a file that is not shown. */
 function show_mistakes(document) {
   const first = first_error(document);
   if (first && Object.hasOwn(workspace.files, first.name)) go_to(first.name, first.line);
@@ -209,7 +209,7 @@ function show_task_of(stays = false) {
   if (workspace.task && !workspace.lesson) show_own_task(workspace);
   show_class_buttons(workspace);
 }
-/** Shows what was open before, with a way back: also after a reload. */
+/** Offers a way back to what was open before, even after a reload. */
 function show_came(words = "", more = []) {
   const whose = workspace.name ? `Handed in by “${workspace.name}”.` : ""; // stays after the rest is dismissed
   const back = workspace.before ? [button("Back to what you had", go_back)] : [], buttons = [...more, ...back];
@@ -234,7 +234,7 @@ window.addEventListener("popstate", async ({ state }) => {
   if (!next) say("This browser no longer has it.", "bad");
   else change_to({ ...next, before: "" }, `“${next.title}”, as you left it.`);
 });
-/** Keeps the previous document unchanged, in its own place. */
+/** Opens another document and saves the previous one. */
 function change_to(next, words, more = []) {
   if (workspace.document && Object.keys(workspace.files).length) {
     opened.set(workspace.document, structuredClone(workspace));
@@ -261,7 +261,7 @@ async function pick(item) {
 }
 const open_item = item => resume({ ...checked(as_workspace(item)), document: item.id, title: item.title },
   `${item.job ? "The lesson" : "The example"} “${item.title}”`);
-/** Opens what others begin with, as it was left where somebody has worked on it. */
+/** Opens a lesson or an example, as the user left it if they have worked on it. */
 async function resume(fresh, what) {
   const mine = await document_of(fresh.document);
   if (!mine || same_files(mine.files, fresh.files)) exchange(fresh, `${what} is open.`);
@@ -369,7 +369,7 @@ document.addEventListener("drop", event => {
 
 // ---- sharing ----
 const share = set_up_share({ workspace: () => workspace });
-/** Reads the workspace in the address, then removes it from the address, which would not follow further changes. */
+/** Reads an address; returns a function that opens what it names. */
 async function take_address(hash) {
   const named = /^#(?:lesson|example)=(.*)$/.exec(hash);
   if (named) {

@@ -82,7 +82,7 @@ const own = {
   pause: () => set_clock({ paused: true }),
   resume: () => set_clock({ paused: false }),
   speed: ({ factor }) => set_clock({ speed: factor }),
-  /** A `deed` of page/edu/machine.js, which few visits need. */
+  /** Calls a `deed` of page/edu/machine.js, loaded on demand. */
   async edu_run({ deed, ...params }) {
     edu ??= import("./page/edu/machine.js").then(({ make_machine }) => make_machine({ call: engine.call, post }), () => {
       edu = null;
@@ -112,7 +112,7 @@ function answer({ id, method, params = {} }) {
     refuse(error);
   }
   function refuse(error) {
-    // Not an answer of orb: after that nothing in its memory can be relied on.
+    // Not an error from orb: its memory can no longer be trusted.
     if (!(error instanceof OrbError)) post("broken", { message: error instanceof Missing ? error.message : `${method}: ${error.message}` });
     else post_said();
     postMessage({ id, error: { code: error.code ?? 70, message: error.message, findings: error.findings } });

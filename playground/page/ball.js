@@ -1,10 +1,10 @@
-// Runs: in the robot's time or at once, and what the user does to the ball meanwhile.
+// Runs, in the robot's time or at once, and what the user does to the ball meanwhile.
 
 import { $, announce, button, element, with_code } from "./dom.js";
 import { ending_of, program_of } from "./workspace.js";
 
 const silent_ms = 4000; // without a frame
-const patience = 400; // milliseconds that a worker gets to end a run by itself
+const patience = 400; // milliseconds for a worker to end a run by itself
 
 /** The parameters of `run` and `start`: the files, which of them, and the world. */
 export function request(workspace) {
@@ -16,7 +16,7 @@ export function request(workspace) {
 }
 
 const nothing = { t: [], x: [], y: [], heading: [], speed: [], rgb: [], value: [], file: [], line: [] };
-/** A ball that has done nothing yet, as data of a run. */
+/** The data of a run in which nothing has happened yet. */
 const at_rest = {
   title: "", end: { t: 0, reason: "", text: "" }, totals: [], counts: {}, thinned: "", files: [],
   words: { basic: {}, structured: {}, macro: {} }, walls: [], pose: { step: 50_000, ...nothing }, led: nothing, backled: nothing,
@@ -35,8 +35,8 @@ function last_words(story) {
 }
 const icons = { run: "M7 4l14 8-14 8z", stop: "M6 6h12v12H6z" };
 
-/** `machine`: the client of a worker that may be ended at any time. `foreign(name)`: what runs a program that the engine cannot; null for
- *  those that it can. While one runs, `foreign_run` ends it and does something to its robot. */
+/** `machine`: the client of a worker that may be ended at any time. `foreign(name)`: what runs a program that the engine
+ *  cannot run, else null. While one runs, `foreign_run` stops it and passes stimuli to its robot. */
 export class Ball {
   constructor({ machine, player, workspace, remark, on_mistakes, on_place, on_begin, on_busy, foreign }) {
     Object.assign(this, { machine, player, workspace, remark, on_mistakes, on_place, on_begin, on_busy, foreign, foreign_run: null, busy: "", heading: 0, wish: () => {} });
@@ -69,7 +69,7 @@ export class Ball {
     if (this.busy === "robot") this.leash.abort();
     else if (this.busy) {
       this.foreign_run?.stop();
-      this.foreign_run = null; // it has nothing to say any more
+      this.foreign_run = null; // its results no longer matter
       this.finish();
       this.machine.restart();
     }
@@ -82,13 +82,13 @@ export class Ball {
     document.querySelector(".transport").inert = true; // there is nothing to play yet
     this.say("");
   }
-  /** Before it has run. */
+  /** Prepares the page for a run. */
   expect(asked) {
     $("played").classList.toggle("tells", will_tell(asked));
     $("no-events").textContent = "What the ball prints and hits is listed here.";
   }
   /**
-   * Sets the ball's mood until something else is shown: "sad", "glad", or neutral; what it says, and its ghosts.
+   * Sets the ball's mood until something else is shown, "sad", "glad" or "", and what it says.
    */
   feel(mood, words = "") {
     $("played").dataset.mood = mood;
@@ -223,7 +223,7 @@ export class Ball {
     if (error.findings) this.on_mistakes(error.findings);
     this.say(error.findings ? "It has errors; they are listed below the program." : error.message, true);
   }
-  /** The engine is gone. */
+  /** Ends a run whose engine is gone. */
   give_up(reason) {
     if (!this.busy) return;
     this.foreign_run = null;

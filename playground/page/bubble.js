@@ -4,7 +4,7 @@ import { playback, watch } from "../../report/page/playback.js";
 import { $, element } from "./dom.js";
 
 const stays = 2_500_000; // microseconds of the robot
-const longest = 60; // letters
+const longest = 60; // characters
 
 /** The text printed most recently before `now`; empty if that was long ago. */
 function said(events, now) {

@@ -29,7 +29,7 @@ export function set_up_class({ judge, workspace, on_change, write_file, keep, sh
     show_verdict(tests);
   }
   let judging = false;
-  /** Shows how the program does. One request at a time: later input is judged afterwards. */
+  /** Judges the program and shows the result. One request at a time: later input is judged afterwards. */
   async function show_verdict(names) {
     if (judging) return plan_judgement();
     judging = true;

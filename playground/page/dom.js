@@ -28,7 +28,7 @@ export function with_code(text) {
 const fill_said = made => made.replaceChildren(...t(made.dataset.said).split(/`([^`\n]+)`/).map((part, i) => i % 2 ? element("code", {}, part) : part));
 export const say_anew = () => { for (const made of document.querySelectorAll("[data-said]")) fill_said(made); };
 
-/** Shows it in the line below the program, and announces it to screen readers. */
+/** Shows words in the line below the program; screen readers announce them. */
 export function say(words, look = "") {
   $("status").textContent = words;
   $("status").className = look;
@@ -66,7 +66,7 @@ export function show_trouble(id, words) {
 }
 
 let announced = 0, unsaid = "";
-/** Announces words to screen readers; joins quick successions. */
+/** Announces words to screen readers; joins those in quick succession. */
 export function announce(words) {
   unsaid = `${unsaid}${words}`.slice(-300);
   if (announced) return;

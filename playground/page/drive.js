@@ -1,22 +1,22 @@
-// Runs a program here with a real robot as its body: the map draws where it is. Whatever happens, the robot is told to stop.
+// Runs a program here to drive a real robot; the map shows where it is. However a run ends, the robot is stopped.
 
 import { $, element, with_code } from "./dom.js";
 import { do_wish, within } from "../link.js";
 import { request } from "./ball.js";
 
-const frame_ms = 33; // between two pictures
-const patience = 2000; // milliseconds for a step of the engine; by itself a robot stops as long after its last command
+const frame_ms = 33; // between two frames
+const patience = 2000; // milliseconds for a step of the engine; a robot without commands stops after as long
 const patience_again = 3000; // for a robot that was lost: by then it has stopped by itself
 const late = new Error("the engine does not answer");
 
-/** What the engine runs itself. */
+/** The driver of a program that the engine runs. */
 const driver_of = (machine, asked) => ({
   start: robot => machine.call("drive_start", { ...asked, robot, for: "0" }),
   step: message => machine.call("drive_step", message),
   end() {},
 });
 
-/** A new link to the robot of one that was lost; null if it cannot be had soon. */
+/** Reconnects to the robot of a lost link; null if that takes too long. */
 async function again(link) {
   const opening = link.again?.();
   try {
@@ -27,7 +27,7 @@ async function again(link) {
   }
 }
 
-/** Drives the robot on `link`, which somebody else closes, until the program has ended or is stopped. */
+/** Drives the robot on `link`, which the caller closes, until the program has ended or is stopped. */
 export async function drive(ball, link) {
   const asked = request(ball.workspace());
   if (!ball.ready(asked)) return;
@@ -39,9 +39,9 @@ export async function drive(ball, link) {
   ball.told = "";
   const begin = performance.now();
   const now = () => performance.now() - begin;
-  let driver, second = null, why = "", stop = null; // the packets that stop it as it drives now
+  let driver, second = null, why = "", stop = null; // the packets that would stop it now
   const brake = () => stop && do_wish(second ?? link, { write: stop }, now);
-  /** A page that nobody sees may stand still, and who drives a robot has to see it. */
+  /** Stops the robot if the page is hidden: the browser may pause it, and nobody watches the robot. */
   const on_hidden = ({ type }) => {
     if (type !== "pagehide" && !document.hidden) return;
     why = "the page was hidden";
@@ -72,7 +72,7 @@ export async function drive(ball, link) {
       done = step.write.length ? await do_wish(second ?? link, { write: step.write }, now) : {};
       if (!done.error && !step.over) done = await do_wish(second ?? link, { read_until: now() + step.wait_ms }, now);
       if (!done.error) continue;
-      // The engine has been told of a first one, and has begun to stop the robot.
+      // After the first error the engine has begun to stop the robot.
       if (is_lost && !second && (second = await again(link))) done = { relinked: true };
       is_lost = true;
     }

@@ -1,5 +1,5 @@
-// What of the editor a language that comes later needs (page/edu/javascript.js): there is one editor on the page, and the
-// build says what is missing here.
+// The parts of the editor that page/edu/javascript.js, loaded later, shares with the page; the build fails if one is missing
+// here.
 
 import { EditorState, Facet, Prec, RangeSetBuilder, StateEffect, StateField } from "@codemirror/state";
 import { Decoration, Direction, EditorView, ViewPlugin, hoverTooltip, logException } from "@codemirror/view";

@@ -27,7 +27,7 @@ export function set_up_flash({ machine, workspace, ball, on_mistakes }) {
   let way_of_last = null;
 
   const is_foreign = name => ending_of(name ?? "") === "js";
-  /** What can be done with the program here. */
+  /** Enables what can be done with the program here. */
   function offer() {
     const [name] = request(workspace()).names, is_kept = name && !is_foreign(name);
     $("flash-serial").disabled = !can_serial() || !is_kept;
@@ -68,7 +68,7 @@ export function set_up_flash({ machine, workspace, ball, on_mistakes }) {
     $("flash-progress").hidden = false;
     $("flash-progress").value = 0;
   }
-  /** Writes to a robot that the person chooses, or again to `device`. */
+  /** Writes to a robot that the user chooses, or again to `device`. */
   async function write(way, device) {
     const { files, names } = request(workspace());
     const controller = new AbortController();

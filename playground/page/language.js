@@ -38,7 +38,7 @@ export async function speak({ on_change }) {
   $("language").append(...Object.entries(languages).map(([one, name]) => element("option", { value: one, lang: one, selected: one === code }, name)));
   $("language").addEventListener("change", async () => {
     const chosen = $("language").value;
-    try { localStorage.setItem(key, chosen); } catch { /* then it is asked for each time */ }
+    try { localStorage.setItem(key, chosen); } catch { /* for this visit only */ }
     await show_in(chosen);
     on_change();
   });

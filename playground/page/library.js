@@ -95,7 +95,7 @@ function picture({ path = [], color = "" }) {
   const ball = lines.length ? [] : [svg("circle", { class: "mark-ball", cx: 60, cy: 36, r: 20 }), svg("circle", { cx: 60, cy: 36, r: 20, fill: color || "none", "fill-opacity": .75 })];
   return svg("svg", { viewBox: "0 0 120 72", class: "drawn", "aria-hidden": "true" }, ...lines, ...ball);
 }
-/** The job: what is said behind a bold word. */
+/** The job: the text after a bold word. */
 const first_words = text => /^\*\*[^*]+:\*\*\s+([^]+?)$/m.exec(said(text ?? ""))?.[1].replace(/[*`]/g, "");
 
 // ---- lessons ----

@@ -52,9 +52,9 @@ export function make_sounds({ playback, watch }) {
     heard = now;
   });
 
-  const scale = [262, 294, 330, 392, 440, 523, 587, 659]; // five tones of two octaves, which go together in any order
+  const scale = [262, 294, 330, 392, 440, 523, 587, 659]; // pentatonic: the tones fit in any order
   return {
-    /** A sound of that name, of which there is no recording: the same name is always the same few tones. */
+    /** Plays a few tones for a sound without a recording, always the same ones for a name. */
     call(name) {
       if (!on) return;
       let seed = 7;

@@ -35,7 +35,7 @@ export function first_steps({ on_next, point_at }) {
     $("task-title").textContent = at < 3 ? "Your first program" : "You can program a robot!";
     const list = element("ol", { class: "steps" }, ...words.map((line, i) => element("li", { class: i < at ? "done" : i === at ? "now" : "", "aria-current": i === at ? "step" : undefined }, ...line)));
     point_at(at === 1 ? to_change : null);
-    $("views").firstElementChild.classList.toggle("pulse", at === 1); // if the program is out of sight
+    $("views").firstElementChild.classList.toggle("pulse", at === 1); // in case the program is out of sight
     $("task-text").replaceChildren(list, ...at < 3 ? [] : [element("p", {}, button("On to the first lesson", on_next, { class: "strong", id: "first-lesson" }))]);
   }
   function done(step) {

@@ -33,7 +33,7 @@ export class Store {
     });
     return this.#db;
   }
-  /** Returns the result of `deed(db)`; nothing, after reporting it, if the browser cannot store data. */
+  /** Returns the result of `deed(db)`; undefined, after reporting it, if the browser cannot store data. */
   async #within(deed) {
     try {
       return await deed(await this.#open());

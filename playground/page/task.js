@@ -38,7 +38,7 @@ export function show_text(text) {
 /** Each paragraph of a text in the language of the page. */
 export const said = text => text.trim().split("\n\n").map(block => t(block)).join("\n\n");
 
-/** Shows the task of a lesson that is none of the page's own. */
+/** Shows the task of a lesson that a user wrote. */
 export function show_own_task({ task }) {
   const { title, text } = parts_of(task);
   $("task").hidden = false;
@@ -46,7 +46,7 @@ export function show_own_task({ task }) {
   show_text(said(text));
   $("dots").replaceChildren();
 }
-/** Shows the buttons for tasks and for making lessons; work that was handed in is only looked at. */
+/** Shows the buttons for tasks and for making lessons; none for work that was handed in. */
 export function show_class_buttons(workspace) {
   const own = !!workspace.task && !workspace.lesson;
   for (const id of ["lesson-before", "lesson-next", "solution"]) $(id).classList.toggle("gone", own);

@@ -1,6 +1,5 @@
 // What a test found missing, as a teacher would say it: "Wanted red from 0.1 to 1.9 s, saw green." Also as ghosts:
-// where the
-// ball should have been, and in which colour.
+// where the ball should have been, and in which colour.
 //
 // A phrase is a list like the engine's sentences (said.js): an English text, and the fillers of its holes.
 

@@ -15,7 +15,7 @@ const configurations = { __proto__: null, bas, macro, orb, stimulus, test };
 const step = "  ";
 
 const pattern_of = ({ pattern, flags }) => new RegExp(pattern, flags);
-/** Which lines of a language begin a block (`more`), and which end or divide one (`less`); null where there are no blocks. */
+/** Patterns of lines that begin a block (`more`), and that end or divide one (`less`); null if a language has no blocks. */
 function blocks_of({ indentationRules: rules }) {
   return rules ? { more: pattern_of(rules.increaseIndentPattern), less: pattern_of(rules.decreaseIndentPattern) } : null;
 }
@@ -24,7 +24,7 @@ const blanks_before = text => /^\s*/.exec(text)[0];
 /** The indentation of the line `here`. `above`: the lines above it, nearest first. */
 function indentation(here, above, { more, less }) {
   if (less.test(here)) {
-    let inner = 0; // blocks that end between this line and the start of its own
+    let inner = 0; // blocks that end between this line and its block's start
     for (const line of above) {
       const opens = more.test(line), closes = less.test(line);
       if (closes && !opens) ++inner;
@@ -68,7 +68,7 @@ const new_line = blocks => ({ state, dispatch }) => {
   return true;
 };
 
-/** Offers words that begin like the one being typed: none behind a blank, and none for a word that is complete. */
+/** Offers words that begin like the one being typed: none after a blank, and none for a complete word. */
 async function server_offers(context) {
   const typed = context.matchBefore(/[A-Za-z_]\w*/);
   if (!typed && !context.explicit) return null;
@@ -79,7 +79,7 @@ async function server_offers(context) {
   return { ...found, validFor: word => /^\w*$/.test(word) && !is_complete(word) };
 }
 
-/** For a file of that kind; `offers` are the words to choose from. */
+/** The extension for files with that ending; `offers` finds the words to choose from. */
 export function typing(ending, { configuration = configurations[ending] ?? {}, offers = server_offers } = {}) {
   const { autoClosingPairs = [], comments } = configuration, blocks = blocks_of(configuration);
   const data = [{ closeBrackets: { brackets: autoClosingPairs.map(({ open }) => open) }, ...comments ? { commentTokens: { line: comments.lineComment } } : {} }];

@@ -10,7 +10,7 @@ const not_passed = one => one.verdict !== "passed";
 const signs = { __proto__: null, passed: "✓", failed: "✗", error: "!" };
 
 export class Verdicts {
-  /** `judge({files, names})` answers as the engine's `test`, of programs that it cannot run with what Tests of page/edu add. */
+  /** `judge({files, names})` answers like the engine's `test`; for JavaScript with what page/edu/tests.js adds. */
   constructor({ machine, judge, ball, map, workspace, on_place, on_passed, on_hand_in }) {
     Object.assign(this, { machine, judge, ball, workspace, on_place, on_passed });
     ball.wish = make_ghosts(map);
@@ -56,7 +56,7 @@ export class Verdicts {
     if (!one?.misses?.length) return null;
     return { report: await this.run_again(test, one, files), miss: one.misses[0] };
   }
-  /** The data of the run of a case. */
+  /** The report of a case's run. */
   async run_again(test, { seed }, files) {
     return this.report_of(test) ?? (await this.machine.call("replay", { files, names: [test.file], test: test.test, seed, program: test.program })).report;
   }

@@ -91,14 +91,14 @@ const store = { now: "orb-playground", before: "orb-playground-before" };
 const places = ["sessionStorage", "localStorage"];
 export function keep(workspace, where = "now") {
   for (const place of places)
-    try { window[place].setItem(store[where], JSON.stringify(workspace)); } catch { /* full, or not allowed, of which store.js tells */ }
+    try { window[place].setItem(store[where], JSON.stringify(workspace)); } catch { /* full or not allowed; store.js reports it */ }
 }
 export function kept(where = "now") {
   for (const place of places)
     try {
       const found = checked(JSON.parse(window[place].getItem(store[where])));
       if (found) return found;
-    } catch { /* nothing there, or nothing of ours */ }
+    } catch { /* nothing there, or not ours */ }
   return null;
 }
 

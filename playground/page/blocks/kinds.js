@@ -250,7 +250,7 @@ export function define_blocks(Blockly, words) {
       const n = seps.length - 1;
       row(block, "ROW", "print");
       seps.forEach((sep, i) => {
-        // Between two items any separator may stand; before the first and after the last only an existing one is shown.
+        // Any separator may go between two items; before the first and after the last only an existing one is shown.
         const field = sep || (i > 0 && i < n) ? [[`SEP${i}`, new ChoiceField(sep, () => ["", ",", ";"], { look: sign => sign || "·" })]] : [];
         if (i < n) value(block, `A${i}`, item, ...field);
         else row(block, "LAST", ...field);

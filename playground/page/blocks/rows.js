@@ -20,7 +20,7 @@ function value_state(node, least = levels.any) {
   // Required parentheses are written anyway.
   return { ...state, ...extra({ groups: groups - (own < least ? 1 : 0) || undefined, n: kind === "call" || kind === "builtin" ? operands.length : undefined }) };
 }
-/** A number is a shadow block; another value lies on top of one. */
+/** A number is a shadow block; any other value lies on top of one. */
 function input_state(node, least) {
   const state = value_state(node, least);
   return state.type === "number" && !state.extraState ? { shadow: state } : { block: state, ...zero };

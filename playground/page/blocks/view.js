@@ -16,7 +16,7 @@ const messages = { de: () => import("blockly/msg/de"), es: () => import("blockly
 // The page's undo history belongs to the text.
 for (const name of ["undo", "redo"]) Blockly.ShortcutRegistry.registry.unregister(name);
 
-/** Adds the nonce of the page's policy to style sheets created meanwhile. */
+/** Adds the nonce of the page's policy to style sheets that `deed` creates. */
 function with_nonce(nonce, deed) {
   const create = document.createElement;
   document.createElement = function (name, ...more) {
