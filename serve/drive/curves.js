@@ -1,4 +1,4 @@
-// A curve for each value that the robot says, over the last half minute.
+// A curve for each value that the robot reports, over the last half minute.
 
 const seconds = 30;
 const curves = new Map();

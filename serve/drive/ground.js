@@ -1,6 +1,6 @@
 import { colour } from "./curves.js";
 
-// The ground from above: where it went and where it is, in centimetres; ahead is up.
+// The ground from above: where the robot went and is, in centimetres; ahead is up.
 
 const path = [];
 

@@ -1,9 +1,9 @@
 import { post } from "./wheel.js";
 
-// The matrix: it shows what the robot's shows, and whoever drags over it paints.
+// The matrix: shows what the robot's matrix shows; dragging over it paints.
 
 const side = 8;
-const settled = 400; // ms in which what was painted here counts more than what the robot is said to show
+const settled = 400; // ms for which painting here overrides what the robot reports
 const lamps = new Map(); // by x and y, counted from the bottom left
 let paintedAt = 0;
 let stroke = null; // the lamps that this drag has painted
@@ -28,11 +28,11 @@ function paint(lamp) {
   post("pixel", `${lamp.dataset.x} ${lamp.dataset.y} ${numbersOf(hex)}`);
 }
 
-/// The one that the arrow keys start from is the only one that Tab stops at.
+/// Focuses a lamp. Arrow keys start from it, and Tab stops only there.
 function lookAt(lamp) {
   for (const other of lamps.values())
     other.tabIndex = other === lamp ? 0 : -1;
-  lamp.focus({ preventScroll: stroke !== null }); // nothing moves away under a pointer
+  lamp.focus({ preventScroll: stroke !== null }); // do not scroll under a pointer
 }
 
 function drag(event) {
@@ -43,7 +43,7 @@ function drag(event) {
   paint(lamp);
 }
 
-/// `pixels`: RRGGBB of each lamp, row by row from the bottom left; undefined where it has no matrix.
+/// `pixels`: RRGGBB of each lamp, row by row from the bottom left; undefined if the robot has no matrix.
 export function showMatrix(pixels) {
   document.getElementById("matrix").hidden = pixels === undefined;
   if (pixels === undefined || stroke !== null || performance.now() - paintedAt < settled)
@@ -69,7 +69,7 @@ export function readyMatrix() {
   grid.addEventListener("pointerdown", (event) => {
     if (event.button !== 0 || !event.target.closest("button"))
       return;
-    event.preventDefault(); // nothing is selected on the way
+    event.preventDefault(); // select nothing on the way
     grid.setPointerCapture(event.pointerId);
     stroke = new Set();
     lookAt(event.target.closest("button"));
@@ -80,7 +80,7 @@ export function readyMatrix() {
     grid.addEventListener(end, () => { stroke = null; });
   grid.addEventListener("click", (event) => {
     const lamp = event.target.closest("button");
-    if (lamp && event.detail === 0) // of a key: a pointer has painted already
+    if (lamp && event.detail === 0) // from a key: a pointer has painted already
       paint(lamp);
   });
   const ways = { ArrowUp: [0, 1], ArrowDown: [0, -1], ArrowLeft: [-1, 0], ArrowRight: [1, 0] };

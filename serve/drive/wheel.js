@@ -1,7 +1,7 @@
-// The joystick: it tells the robot where to go as long as it is held, and to stop when it is let go.
+// The joystick: drives the robot while it is held, and stops it when it is let go.
 
 const radius = 100;
-const every = 100; // ms between two words to the robot while the stick is held
+const every = 100; // ms between commands while the stick is held
 let held = null; // where it is held: { heading, speed }
 
 export function post(path, body = "") {
@@ -30,7 +30,7 @@ export function letGo() {
   post("stop");
 }
 
-/// Says where to go, again and again: a page that has gone says nothing, and the robot stops.
+/// Repeats the command: if the page is gone, commands stop coming and the robot stops.
 export function speak() {
   if (held !== null)
     post("drive", `${held.heading} ${held.speed}`);
