@@ -1,4 +1,4 @@
-// What the parts of the page have in common: elements, numbers, and the words for them.
+// Shared by the parts of the page: elements, numbers, and the words for them.
 
 export const $ = id => document.getElementById(id);
 const svg_ns = "http://www.w3.org/2000/svg";
@@ -14,7 +14,7 @@ export function last_at(list, t) {
 }
 
 export const clamp = (value, low, high) => Math.min(Math.max(value, low), high);
-/** Whole milliseconds that have passed, as `orb run` itself counts them. */
+/** Microseconds as seconds, cut off to whole milliseconds as in `orb run`. */
 export const seconds = t => (Math.floor(t / 1000) / 1000).toFixed(3);
 export function clock_text(t) {
   const minutes = Math.floor(t / 60e6);
@@ -37,7 +37,7 @@ export function shape(name, attributes, parent) {
 }
 export const css_color = rgb => "#" + rgb.toString(16).padStart(6, "0");
 export const rgb_words = rgb => `${rgb >> 16}, ${rgb >> 8 & 255}, ${rgb & 255}`;
-/** How bright a colour is, from 0 to 1: a pale or a deep one needs an outline of its own. */
+/** How bright a colour is, from 0 to 1: a pale or a deep one needs a different outline. */
 export const brightness = rgb => (.3 * (rgb >> 16) + .59 * (rgb >> 8 & 255) + .11 * (rgb & 255)) / 255;
 export const position_words = state => `${state.x.toFixed(1)}, ${state.y.toFixed(1)} cm`;
 export const speed_words = state => `${state.speed.toFixed(1)} cm/s`;

@@ -1,4 +1,4 @@
-// What happened, in a list.
+// The list of events.
 
 import { $, element, keep_in_view, last_at, seconds, shape } from "./dom.js";
 import { playback, seek, watch } from "./playback.js";
@@ -31,14 +31,14 @@ function clear_rows() {
   current_event = -2;
   $("events").replaceChildren();
 }
-/** Another run comes, not more of this one. */
+/** Clears the list before another run is shown. */
 export function forget_events() {
   events = [];
   clear_rows();
 }
 const most_rows = 500; // more would make a long run slow
-const spare_rows = 50; // go at once: all that stay move up then
-/** More of a run that goes on; the oldest rows go. */
+const spare_rows = 50; // removed together, as all others move up
+/** Adds events of a live run; drops the oldest rows. */
 export function list_more_events(more) {
   if (!more.length) return;
   const fresh = more.slice(-most_rows);
@@ -70,7 +70,7 @@ export function list_events() {
   list_filters();
   show_kinds();
 }
-/** The rows around an event, of more than stand in the list at once. */
+/** Lists the rows around an event, if there are too many for all. */
 function list_rows(around) {
   clear_rows();
   first_row = Math.max(0, Math.min(around - most_rows / 2, events.length - most_rows));
@@ -139,7 +139,7 @@ function show_event() {
 }
 const row_of = i => event_rows[i - first_row];
 watch(show_event);
-/** To the event before or after this moment. */
+/** Jumps to the event before or after this moment. */
 export function jump(by) {
   const visible = events.filter(event => !hidden_kinds.has(event.kind));
   const target = by > 0 ? visible.find(event => event.t > playback.now) : visible.filter(event => event.t < playback.now).pop();

@@ -1,4 +1,4 @@
-// The heading of the page, and light or dark.
+// The heading of the page, and its theme.
 
 import { $, element } from "./dom.js";
 import { playback } from "./playback.js";

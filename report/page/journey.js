@@ -8,7 +8,7 @@ function turn(from, to, share) {
   if (by < -180) by += 360;
   return ((from + by * share) % 360 + 360) % 360;
 }
-// Columns are differences of whole numbers, summed up again here.
+// Columns hold differences of whole numbers, which these sum up again.
 export const sums = list => { let sum = 0; return list.map(step => sum += step); };
 export const column = (list, scale) => sums(list).map(value => value / scale);
 
@@ -22,7 +22,7 @@ export function journey(run) {
   const led = { t: sums(run.led.t), rgb: run.led.rgb };
   const backled = { t: sums(run.backled.t), value: run.backled.value };
   const matrix = { t: sums(run.matrix?.t ?? []), pixels: run.matrix?.pixels ?? [] };
-  // Where the run was, file by file: a program and a macro run side by side.
+  // The lines that ran, file by file: a program and a macro run side by side.
   const steps = run.files.map(() => ({ t: [], line: [] }));
   sums(run.line.t).forEach((t, i) => {
     const own = steps[run.line.file[i]];
@@ -37,7 +37,7 @@ export function journey(run) {
     const next = i + 1;
     if (next >= pose.t.length)
       return { x: pose.x[i], y: pose.y[i], heading: pose.heading[i], speed: pose.speed[i], index: i };
-    // A pose comes while something moves; over a longer gap the ball stood where it was.
+    // Poses are recorded only while something moves: over a longer gap the robot stood still.
     const gap = pose.t[next] - pose.t[i];
     const share = gap > run.pose.step * 1.5 ? 0 : (t - pose.t[i]) / gap;
     const mix = list => list[i] + (list[next] - list[i]) * share;
@@ -45,8 +45,8 @@ export function journey(run) {
   };
   const lamp_at = t => led.rgb[last_at(led.t, t)] ?? 0;
   const tail_at = t => backled.value[last_at(backled.t, t)] ?? 0;
-  /** All lamps of the matrix as RRGGBB, row by row from the bottom left: the newer of LED and picture; null where it
-   *  has none. */
+  /** All lamps of the matrix as RRGGBB, row by row from the bottom left: the newer of LED and picture; null without a
+   *  matrix. */
   const picture_at = t => {
     if (!run.matrix) return null;
     const picture = last_at(matrix.t, t), color = last_at(led.t, t);
@@ -57,8 +57,8 @@ export function journey(run) {
   add_stretches(made, 1, Infinity);
   return made;
 }
-/** Stretches of path in one colour, from the pose `first` on, of at most `most` steps; the LED may change between
- *  two poses. */
+/** Adds stretches of path in one colour, from the pose `first` on, of at most `most` steps; the LED may change
+ *  between two poses. */
 function add_stretches({ pose, stretches, lamp_at }, first, most) {
   for (let i = Math.max(first, 1); i < pose.t.length; ++i) {
     if (pose.x[i] === pose.x[i - 1] && pose.y[i] === pose.y[i - 1]) continue;
@@ -67,8 +67,7 @@ function add_stretches({ pose, stretches, lamp_at }, first, most) {
     else stretches.push({ from: i - 1, to: i, color: lit });
   }
 }
-/** More of a run that goes on: rows of plain values. Its stretches stay short, as the last one is drawn again and
- *  again. */
+/** Adds rows of plain values to a live run. Its stretches stay short, as the last one is redrawn each time. */
 export function lengthen(one, { pose, led, backled, matrix = { t: [], pixels: [] }, line, events }) {
   const first = one.pose.t.length;
   for (const [column, more] of [[one.pose, pose], [one.led, led], [one.backled, backled], [one.matrix, matrix]])

@@ -1,4 +1,4 @@
-// The keys.
+// Keyboard shortcuts.
 
 import { $ } from "./dom.js";
 import { jump } from "./events.js";
@@ -9,7 +9,7 @@ import { step_line } from "./source.js";
 import { set_playing, slider } from "./transport.js";
 
 $("keys-button").addEventListener("click", () => $("keys").showModal());
-/** Takes the keys that are pressed within `where`. */
+/** Handles the keys pressed within `where`. */
 export function take_keys(where) {
   where.addEventListener("keydown", press);
 }
@@ -28,7 +28,7 @@ function press(event) {
     f: toggle_follow, t: next_theme, "?": () => $("keys").showModal(),
     " ": () => set_playing(!playback.playing),
   };
-  if (event.key === " " && target instanceof HTMLButtonElement) return; // a button has its own use for it
+  if (event.key === " " && target instanceof HTMLButtonElement) return; // Space presses a button
   const action = actions[event.key];
   if (!action) return;
   event.preventDefault();

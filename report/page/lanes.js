@@ -5,8 +5,8 @@ import { column, sums } from "./journey.js";
 import { playback, seek, watch } from "./playback.js";
 
 let lanes = [];
-/** `series`: [{name, t, v, digits}]; `cyclic`: 360 where a value wraps round; `between`: what a state
- *  between two poses says, where values are not held; `other`: the same series of the run before. */
+/** `series`: [{name, t, v, digits}]; `cyclic`: 360 if a value wraps around; `between(state)`: the value between
+ *  two poses, if values are not held; `other`: the same series of the run before. */
 function add_lane({ id, name, unit, series, cyclic, low, high, held, between, other }) {
   const values = [...series, ...other ? [other] : []].flatMap(one => one.v.length ? [one.v.reduce((a, b) => Math.min(a, b)), one.v.reduce((a, b) => Math.max(a, b))] : [0]);
   let from = low ?? Math.min(...values), to = high ?? Math.max(...values);
@@ -129,13 +129,13 @@ export function list_lanes() {
   }
 }
 
-/** What lies under the slider: the colours over time, and where it hurt. */
+/** Draws the track under the slider: the colours over time, and bumps and errors. */
 export function draw_track() {
   const art = $("track"), width = 1000, { led, run } = playback.main;
   art.replaceChildren();
   art.setAttribute("viewBox", `0 0 ${width} 10`);
   const x = t => clamp(t / playback.end * width, 0, width);
-  // Of colours that change faster than anybody sees, some.
+  // If colours change several times within a pixel, draw only some.
   const places = led.t.map(x);
   let last = -1;
   const seen = [...places.keys()].filter(i => {

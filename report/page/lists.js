@@ -1,4 +1,4 @@
-// Which of two runs, or which ball of a room, the lists show.
+// Chooses which of two runs, or which ball of a room, the lists show.
 
 import { $, element } from "./dom.js";
 import { list_events } from "./events.js";
@@ -13,8 +13,8 @@ export function choose(one) {
   list_variables();
   list_events();
 }
-const most_buttons = 6; // beyond that the balls stand in a list
-/** The balls of a room; `take(one)` is called with the one that is chosen. */
+const most_buttons = 6; // more balls than this go into a drop-down list
+/** Lists the balls of a room; calls `take(one)` with the chosen one. */
 export function list_balls(take) {
   const whose = $("whose"), { room, main } = playback;
   whose.replaceChildren();

@@ -1,4 +1,4 @@
-// The maps: of the run, and of the one before it.
+// The maps of the run and of the one before it.
 
 import { $, clamp, length_words, position_words, shape, speed_words } from "./dom.js";
 import { area, grid_step, is_turned, look_at, make_chart, measure, outgrown, survey, view } from "./map_chart.js";
@@ -14,7 +14,7 @@ function make_map(map) {
   const chart = make_chart(map);
   let layers = null;
   let guests = []; // the other balls of a room
-  /** The other balls: their paths lie below that of the one that is looked at, they themselves above all paths. */
+  /** Draws the paths of the other balls, below that of the ball shown; the balls themselves lie above all paths. */
   function draw_guests() {
     guests = others().map(one => Object.assign(Object.create(chart), { one, path: null }));
     for (const guest of guests) draw_path(guest, shape("g", { class: "guest-path" }, map));
@@ -30,7 +30,7 @@ function make_map(map) {
     }
   }
   function draw() {
-    for (const one of map.getAnimations()) one.cancel(); // what is measured is at rest
+    for (const one of map.getAnimations()) one.cancel(); // measure at rest
     measure(chart);
     for (const child of [...map.children]) if (child.nodeName !== "title") child.remove();
     map.setAttribute("viewBox", `0 0 ${chart.width} ${chart.height}`);
@@ -50,7 +50,7 @@ function make_map(map) {
     layers = { marks, ...draw_ball(chart, map) };
     draw_more(chart, layers);
   }
-  /** Draws anew, and lets what is seen now become that little by little. */
+  /** Redraws, with a transition from what is seen now. */
   function draw_eased() {
     const before = { ...chart };
     draw();
@@ -100,10 +100,10 @@ function make_map(map) {
   return { grow, load: one => { chart.one = one; }, draw, draw_eased, show_ball, scale: () => chart.scale, words: map.nextElementSibling };
 }
 let draw_more = () => {};
-/** `draw(chart, layers)` adds to each map that is drawn. */
+/** Calls `draw(chart, layers)` after each map is drawn, to add to it. */
 export function on_draw(draw) { draw_more = draw; }
 let on_choice = () => {};
-/** `take(one)` is called with the ball of a room that somebody points at. */
+/** Calls `take(one)` with the ball of a room that somebody presses. */
 export function on_ball_chosen(take) { on_choice = take; }
 const all_maps = [make_map($("map")), make_map($("map-before"))]; // the run's comes first
 let maps = [];
@@ -122,7 +122,7 @@ function draw_scale() {
   $("scale-bar").style.width = `${(cm * maps[0].scale()).toFixed(1)}px`;
   $("scale-words").textContent = length_words(cm);
 }
-/** Shows `state`, and of the run before where it was at that moment. */
+/** Shows `state`, and where the ball of the run before was at that moment. */
 function show_maps(state) {
   for (const [i, one] of maps.entries()) {
     const there = i ? playback.before.state_at(playback.now) : state;
@@ -135,7 +135,7 @@ export function draw_maps() {
   for (const one of maps) one.draw();
   draw_scale();
 }
-/** The same where another part of the floor, or more of it, is looked at. */
+/** The same, with a transition to another part of the floor. */
 export function draw_maps_eased() {
   for (const one of maps) one.draw_eased();
   draw_scale();
@@ -146,7 +146,7 @@ export function redraw(draw = draw_maps) {
   show();
 }
 
-/** More of a run that goes on, from the pose `first` on; where the map does not hold it, all is drawn anew. */
+/** Draws more of a live run, from the pose `first` on; redraws all if the map does not hold it. */
 export function grow_maps(first, events) {
   if (outgrown(first)) {
     survey();
@@ -171,7 +171,7 @@ export function toggle_follow() {
   $("follow").setAttribute("aria-pressed", String(view.follow));
   redraw();
 }
-/** A course stands as it was drawn, or as the ball sees it at its start. */
+/** Shows a course as it was drawn, or with the start heading up. */
 function toggle_drawn() {
   view.as_drawn = !view.as_drawn;
   $("as-drawn").setAttribute("aria-pressed", String(view.as_drawn));

@@ -1,24 +1,24 @@
-// Where things lie on a map: the area it holds, the part that is looked at, centimetres in pixels.
+// The geometry of a map: the area it holds, the part in view, and centimetres in pixels.
 
 import { others, playback } from "./playback.js";
 
 export const view = { zoom: 1, x: 0, y: 0, follow: false, as_drawn: true };
-/** What the maps hold: its corners, places that are to be seen besides what the run has, whether the ball moved, whether there is
- *  anything to measure by, and where the drawing of the course puts what is ahead of the ball at its start. */
+/** What the maps hold: `box`, its corners; `also`, more places to show; `moved`, true if the ball moved; `mapped`, true if
+ *  the map has a scale; `ahead`, the direction in the course's drawing that the ball faces at its start. */
 export const area = { box: null, also: [], moved: false, mapped: false, ahead: [0, 1] };
 const upright = [0, 1];
-/** Whether the drawing of the course stands otherwise than the ball sees it. */
+/** True if the ball's start heading is not up in the course's drawing. */
 export const is_turned = () => area.ahead[1] < .9999;
 const ahead = () => view.as_drawn ? area.ahead : upright;
-/** Centimetres of the robot as centimetres of the map, to the right and up. */
+/** Converts centimetres of the robot to centimetres of the map, to the right and up. */
 function place(x, y) {
   const [right, up] = ahead();
   return [x * up + y * right, y * up - x * right];
 }
 /** How far the map is turned, clockwise, in degrees. */
 export const turned_by = () => Math.atan2(...ahead()) * 180 / Math.PI;
-/** What the vertical and the horizontal lines of the map are called per centimetre: signs, or null where none of
- *  the robot's axes lies along them. */
+/** The signs of the numbers on the vertical and horizontal lines of the map; null if the robot's axes do not lie
+ *  along them. */
 export function axis_signs() {
   const [right, up] = ahead();
   return Math.max(Math.abs(right), Math.abs(up)) > .9999 ? [Math.round(up + right), Math.round(up - right)] : null;
@@ -36,23 +36,23 @@ export function survey() {
   area.box = { left, right, low, high, middle_x: (left + right) / 2, middle_y: (low + high) / 2 };
   const spread = axis => { const list = poses.map(one => one[axis]); return most(list) - least(list); };
   area.moved = spread(0) > 1 || spread(1) > 1;
-  // A course has its room already.
+  // A course already leaves enough space.
   const fits = corners.length > 0 && places.length > 0 && poses.every(([x, y]) => in_course(place(x, y), corners.map(([x, y]) => place(x, y))));
   if (playback.live && area.moved && !fits) grow_box();
-  // A map has a scale where something lies on it; else it shows the ball alone.
+  // A map with nothing but the ball has no scale.
   area.mapped = area.moved || area.also.length > 0 || playback.runs.some(one => one.run.course);
 }
 
 const in_course = ([right, up], corners) => corners.some(([x]) => x <= right) && corners.some(([x]) => x >= right) && corners.some(([, y]) => y <= up) && corners.some(([, y]) => y >= up);
-const room_cm = 50; // around the start of a run that goes on
-/** Makes room for what is to come, so that the map is seldom drawn anew. */
+const room_cm = 50; // around the start of a live run
+/** Leaves space for what is to come, so that the map is seldom redrawn. */
 function grow_box() {
   const { box } = area, more = Math.max(box.right - box.left, box.high - box.low) / 4;
   const left = Math.min(box.left - more, -room_cm), right = Math.max(box.right + more, room_cm);
   const low = Math.min(box.low - more, -room_cm), high = Math.max(box.high + more, room_cm);
   area.box = { left, right, low, high, middle_x: (left + right) / 2, middle_y: (low + high) / 2 };
 }
-/** Whether the map does not hold the poses from `first` on. */
+/** True if the map does not hold the poses from `first` on. */
 export function outgrown(first) {
   const { pose } = playback.main, { box } = area;
   for (let i = first; i < pose.t.length; ++i) {
@@ -63,14 +63,14 @@ export function outgrown(first) {
   return false;
 }
 
-/** 1, 2 or 5 times a power of ten: lines stand at least 64 pixels apart. */
+/** Centimetres between lines at least 64 pixels apart: 1, 2 or 5 times a power of ten. */
 export function grid_step(scale) {
   const wanted = 64 / scale;
   const power = 10 ** Math.floor(Math.log10(wanted));
   return [1, 2, 5, 10].find(factor => factor * power >= wanted) * power;
 }
 
-/** How the run `one` lies on an SVG element: `at` and `point` say where, in pixels. */
+/** Places the run `one` on an SVG element: `at` and `point` return pixels. */
 export function make_chart(map) {
   const chart = {
     map, one: null, width: 0, height: 0, scale: 1, left: 0, top: 0,
@@ -85,28 +85,27 @@ export function make_chart(map) {
   };
   return chart;
 }
-/** Puts the middle of the view where `state` is. */
+/** Centres the view on `state`. */
 export function look_at(state) {
   const [right, up] = place(state.x, state.y);
   view.x = right - area.box.middle_x;
   view.y = up - area.box.middle_y;
 }
-/** How much of the height of an element lies under what is laid over it: under the numbers above and the key below; 0
- *  where these stand beside it. */
+/** How many pixels of an element the numbers at its top and the key at its bottom cover; 0 if they are beside it. */
 function covered(map, { top, bottom }) {
   const stage = map.closest(".stage"), box = name => stage.querySelector(name).getBoundingClientRect();
   const head = box(".stage-head"), key = box(".key");
   return [head.bottom - top, key.height ? bottom - key.top : 0].map(height => Math.max(0, Math.round(height)));
 }
 const numbers_px = 20; // of the row below
-/** Fits what is looked at into the element, whatever size that has now. */
+/** Fits the view into the element at its current size. */
 export function measure(chart) {
   const size = chart.map.getBoundingClientRect();
   const width = Math.max(size.width, 50), height = Math.max(size.height, 50);
-  const [above, under] = covered(chart.map, size), fills = above > 0 && !!chart.one.run.course; // which has edges of its own
+  const [above, under] = covered(chart.map, size), fills = above > 0 && !!chart.one.run.course; // a course has its own edges
   const below = fills ? numbers_px : under, free = Math.max(height - above - below, 50);
   const wide = Math.max(area.box.right - area.box.left, 20), tall = Math.max(area.box.high - area.box.low, 20);
-  // Above and below what is drawn, and beside it.
+  // Margins above and below what is drawn, and beside it.
   const edges = fills ? 12 : Math.min(above || below ? 48 : 84, free * .35), sides = fills ? 24 : 96;
   const fitting = Math.min((width - sides) / wide, (free - edges) / tall);
   const scale = Math.max(fitting, .02) * view.zoom;
@@ -116,14 +115,14 @@ export function measure(chart) {
 }
 
 const far = 1e5; // centimetres: beyond what any map shows
-/** The walls as lines in pixels; those across all of the floor are long. */
+/** The walls as lines in pixels; endless walls are only long. */
 export const wall_lines = chart => chart.one.run.walls.map(wall => {
   const from = wall.from ?? (wall.axis === "x" ? [wall.at, -far] : [-far, wall.at]);
   const to = wall.to ?? (wall.axis === "x" ? [wall.at, far] : [far, wall.at]);
   const a = chart.at(...from), b = chart.at(...to);
   return { x1: a.x, y1: a.y, x2: b.x, y2: b.y, endless: !wall.from };
 });
-/** Whether a line meets a box of pixels. */
+/** True if a line meets a box, in pixels. */
 export function meets({ x1, y1, x2, y2 }, { left, right, high, low }) {
   let enter = 0, leave = 1;
   for (const [start, way, from, to] of [[x1, x2 - x1, left, right], [y1, y2 - y1, high, low]]) {

@@ -1,9 +1,9 @@
-// What lies below the path: grid, zones, walls.
+// Draws what lies below the path: grid, zones, walls.
 
 import { length_words, shape, trim } from "./dom.js";
 import { axis_signs, grid_step, grown, meets, overlap, wall_lines } from "./map_chart.js";
 
-/** Walls lie on the lines and under the words. */
+/** Draws the grid: its lines below the walls, its numbers above. */
 export function draw_grid(chart, lines, words) {
   const grid = grid_step(chart.scale), signs = axis_signs();
   const first_x = Math.ceil(-chart.left / chart.scale / grid), last_x = Math.floor((chart.width - chart.left) / chart.scale / grid);
@@ -27,8 +27,8 @@ export function draw_grid(chart, lines, words) {
   }
 }
 
-const word_width = 7.2, word_height = 12; // pixels, of a letter of a zone's name
-/** Where the name of a zone meets no border, no wall and no other name: within the zone, or beside it. */
+const word_width = 7.2, word_height = 12; // pixels of a letter in a zone's name
+/** Finds a place for a zone's name, in the zone or beside it, that meets no border, wall or other name. */
 function name_place(chart, words, outline, lines, taken) {
   const wide = word_width * words.length, box = outline.box;
   const tries = [];
@@ -60,7 +60,7 @@ function outline_of(chart, zone) {
   }));
   return { box: { left: Math.min(...x), right: Math.max(...x), high: Math.min(...y), low: Math.max(...y) }, lines };
 }
-/** Says which boxes their names take, and which lines a word had better not lie on. */
+/** Returns the boxes that their names take, and the lines that words should avoid. */
 export function draw_zones(chart, parent, words) {
   const zones = chart.one.run.course?.zones ?? [];
   const outlines = zones.map(zone => outline_of(chart, zone));
@@ -78,7 +78,7 @@ export function draw_walls(chart, parent) {
   for (const { x1, y1, x2, y2 } of wall_lines(chart))
     shape("path", { d: `M${x1.toFixed(1)} ${y1.toFixed(1)}L${x2.toFixed(1)} ${y2.toFixed(1)}`, class: "wall" }, parent);
 }
-/** On paper the map has another size than on the screen: the scale stands in it. */
+/** On paper the map's size differs from the screen's, so the scale is part of it. */
 export function draw_paper_scale(chart, parent) {
   const cm = grid_step(chart.scale), long = cm * chart.scale;
   const right = chart.width - 16, low = chart.height - 12;

@@ -15,7 +15,7 @@ export const mark_art = {
   error: g => shape("path", { d: "M0 -8L8 6H-8Z", class: "mark-error" }, g),
 };
 
-/** Where a word beside a point meets the fewest of path, walls, marks and words. */
+/** Finds the place beside a point where a word meets least of path, walls, marks and words. */
 function free_place(chart, x, y, words, { taken, borders }) {
   const wide = 6.4 * words.length, tall = 12, beside = playback.ball_px + 5;
   const places = [[beside, 4], [-beside - wide, 4], [16, -12], [16, 20], [-16 - wide, -12], [-16 - wide, 20], [-wide / 2, -24], [-wide / 2, 34]];
@@ -41,12 +41,12 @@ function draw_sign(chart, parent, x, y, kind, title) {
   mark_art[kind](group);
   return group;
 }
-/** The sign of an event that has one. */
+/** Draws the sign of an event, if it has one. */
 export function draw_event(chart, parent, event) {
   if (event.x === undefined || !mark_art[event.kind]) return null;
   return draw_sign(chart, parent, event.x, event.y, event.kind, `${seconds(event.t)} s: ${event.text}`);
 }
-/** `floor`: what is no place for a word: boxes that are taken, and borders. */
+/** `floor`: what words should avoid: boxes that are taken, and borders. */
 export function draw_marks(chart, parent, floor) {
   const { taken } = floor;
   const take = (x, y) => {
@@ -57,7 +57,7 @@ export function draw_marks(chart, parent, floor) {
     draw_sign(chart, parent, x, y, kind);
     take(x, y);
   };
-  // Marks in one place share their words.
+  // Marks in one place share a label.
   const labels = new Map();
   for (const event of chart.one.run.events) {
     if (event.x === undefined || !event.short) continue;
@@ -70,7 +70,7 @@ export function draw_marks(chart, parent, floor) {
     shape("text", { x: there.x + dx, y: there.y + dy, class: "mark-word" }, parent).textContent = words;
   };
   for (const event of chart.one.run.events) if (draw_event(chart, parent, event)) take(event.x, event.y);
-  if (playback.live) labels.clear(); // places for words are looked for when it has ended
+  if (playback.live) labels.clear(); // words are placed when it has ended
   const some = list => list.length > 4 ? [...list.slice(0, 3), "…"] : list;
   if (labels.size < 40) for (const { x, y, words } of labels.values()) word(x, y, some(words).join(", "));
   if (!chart.one.pose.t.length) return;

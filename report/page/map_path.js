@@ -11,14 +11,14 @@ function line_from(chart, from, to) {
   for (let i = from + 1; i <= to; ++i) d += `L${at(i)}`;
   return d;
 }
-/** A stroke as a whole, and up to where the ball is. */
+/** The line of a whole stroke, and of its part up to the ball. */
 const line_of = (chart, { pieces }) => pieces.map(({ from, to }) => line_from(chart, from, to)).join("");
 const line_until = (chart, { pieces }, { index, x, y }) => pieces.filter(({ from }) => from <= index)
   .map(({ from, to }) => to <= index ? line_from(chart, from, to) : `${line_from(chart, from, index)}L${chart.point([x, y])}`).join("");
 
 const alone = stretch => Object.assign(stretch, { pieces: [stretch] });
 const most_strokes = 600, groups = 150, palette = 4; // of a run so long that its stretches are drawn together
-/** Each stretch by itself, or those that follow each other in as many strokes as they have colours, which are a few then. */
+/** One stroke for each stretch; if there are many, one for each of a few colours in each group of successive stretches. */
 function strokes_of(stretches) {
   if (stretches.length <= most_strokes) return stretches.map(alone);
   const long = Math.ceil(stretches.length / groups), strokes = [];
@@ -39,7 +39,7 @@ function nearest(color, some) {
   const far = other => channels(other).reduce((sum, value, i) => sum + (value - channels(color)[i]) ** 2, 0);
   return some.reduce((a, b) => far(b) < far(a) ? b : a);
 }
-/** All of the path, faded; the part that lies before the moment shown is laid over it by draw_progress(). */
+/** Draws the whole path, faded; draw_progress() lays the part before the moment shown over it. */
 export function draw_path(chart, parent = chart.map) {
   for (const old of chart.map.parentElement.querySelectorAll(".ground")) old.remove();
   const ahead = shape("g", { class: "ahead" }, parent);
@@ -54,9 +54,9 @@ const kept_in = parent => {
   const dark = shape("g", {}, parent); // unlit stretches lie below lit ones
   return { dark, casings: shape("g", {}, parent), done: shape("g", {}, parent) };
 };
-const most_kept = 120; // stretches that are painted at once
-const most_looks = 16; // of these
-/** Of those that have come to rest a few lines remain: one for each look. Many more in one line are slow to paint. */
+const most_kept = 120; // stretches in one layer
+const most_looks = 16; // colours or kinds in one layer
+/** Joins finished stretches into one line for each look. Longer lines would be slow to paint. */
 function fold_kept({ dark, casings, done }) {
   for (const layer of [dark, casings, done]) {
     const looks = new Map();
@@ -74,7 +74,7 @@ function fold_kept({ dark, casings, done }) {
   }
 }
 const rgb_of = color => parseInt(color.slice(1), 16);
-/** A stretch of a run that goes on has come to its end. */
+/** Moves a finished stretch of a live run to the ground. */
 function keep_stretch(chart, stretch) {
   const { path } = chart, { layers, color } = stretch, [line, casing] = [...layers].reverse();
   stretch.state = "kept";
@@ -85,13 +85,13 @@ function keep_stretch(chart, stretch) {
   (color ? path.done : path.dark).append(line);
   if (casing) path.casings.append(casing);
 }
-/** What lies behind the map of a run that goes on: what has come to rest there is not painted anew with each frame. */
+/** Adds a layer behind the map of a live run, which is not repainted with each frame. */
 function ground_of(chart) {
   const ground = shape("svg", { class: "ground", "aria-hidden": "true", viewBox: chart.map.getAttribute("viewBox") });
   chart.map.before(ground);
   return ground;
 }
-/** Those that are not drawn yet. */
+/** Draws the stretches that are not drawn yet. */
 export function draw_stretches(chart) {
   const { path, one: { stretches } } = chart, { strokes } = path;
   for (; path.taken < stretches.length; ++path.taken) strokes.push(alone(stretches[path.taken]));
@@ -103,7 +103,7 @@ function draw_stretch(chart, stretch) {
   const lit = stretch.color !== 0;
   const look = { class: lit ? "run" : "run unlit", d: line_of(chart, stretch), ...lit ? { stroke: css_color(stretch.color) } : {} };
   stretch.d = look.d;
-  // Of a run that goes on nothing lies ahead, and what grows stands apart from what each frame need not paint anew.
+  // In a live run nothing lies ahead, and what still grows is kept apart from what need not be repainted.
   const all = !playback.live;
   if (lit && all) shape("path", { class: casing_class(stretch.color), d: look.d, "stroke-width": 4.5 }, ahead);
   if (all) shape("path", { ...look, "stroke-width": 3 }, ahead);
@@ -134,7 +134,7 @@ export function draw_progress(chart, state) {
   }
   while (path.strokes[path.past]?.state === "kept") ++path.past;
 }
-/** `tag` tells the balls of a room apart. */
+/** `tag` keeps the ids of a room's balls distinct. */
 export function draw_ball(chart, parent, tag = "") {
   const defs = shape("defs", {}, parent), id = `${chart.map.id}${tag}`;
   const glow = shape("radialGradient", { id: `${id}-glow` }, defs);
@@ -164,9 +164,9 @@ export function draw_ball(chart, parent, tag = "") {
   return { ball, lamp, nose, tail, halo, lamp_stops, matrix };
 }
 const radius_cm = 3.65;
-/** The balls of a room are as large as they are, so that those that meet are seen to touch; but never too small to see. */
+/** A room shows balls in their true size, so that those that meet are seen to touch; but never too small to see. */
 const ball_radius = chart => Math.min(34, Math.max(5, radius_cm * chart.scale));
-/** Puts a ball where it is, with what it shows. */
+/** Moves a ball to where it is, and shows its lights. */
 export function place_ball(chart, layers, state) {
   const lamp = chart.one.lamp_at(playback.now), lamp_color = lamp ? css_color(lamp) : "transparent";
   const there = chart.at(state.x, state.y);

@@ -3,7 +3,7 @@
 import { shape } from "./dom.js";
 
 const side = 8, digits = 6;
-/** Squares that fill a square of `size` round 0,0. */
+/** Draws the lamps into a square of `size` around 0,0. */
 export function draw_lamps(parent, size) {
   const step = size / side, gap = step * .09;
   return Array.from({ length: side * side }, (_, i) => shape("rect", {
@@ -11,7 +11,7 @@ export function draw_lamps(parent, size) {
     width: (step - 2 * gap).toFixed(2), height: (step - 2 * gap).toFixed(2), class: "matrix-lamp",
   }, parent));
 }
-/** Lights them as `picture` says: RRGGBB of each, row by row from the bottom left. Only what changes is touched. */
+/** Shows `picture`: RRGGBB of each lamp, row by row from the bottom left. Only what changes is touched. */
 export function light(lamps, picture) {
   lamps.forEach((lamp, i) => {
     const color = picture.slice(i * digits, (i + 1) * digits);
@@ -20,7 +20,7 @@ export function light(lamps, picture) {
     lamp.style.fill = Number.parseInt(color, 16) ? `#${color}` : "";
   });
 }
-/** What it shows, in words. */
+/** Describes a picture. */
 export function picture_words(picture) {
   const colors = Array.from({ length: side * side }, (_, i) => picture.slice(i * digits, (i + 1) * digits));
   const lit = colors.filter(color => Number.parseInt(color, 16)).length;

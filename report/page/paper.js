@@ -1,4 +1,4 @@
-// On paper the run is over: the whole path and the whole program, whatever part of them was looked at.
+// Prints the run at its end: the whole path and the whole program, whatever part of them was in view.
 
 import { $, element } from "./dom.js";
 import { base_name } from "./journey.js";

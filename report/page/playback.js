@@ -1,15 +1,15 @@
-// What is played back, and the moment that the page shows: the state that its parts share.
+// The state that the parts of the page share: what is played back, and the moment shown.
 
 import { clamp } from "./dom.js";
 import { journey } from "./journey.js";
 
 export const playback = {
   main: null, before: null, runs: [], end: 1,
-  room: [], // all balls of a room, each with its name; empty for a run alone. `main` is the one that is looked at
+  room: [], // all balls of a room, each with its name; empty for a single run. `main` is the one shown
   now: 0, playing: false,
-  live: false, // it still runs: what is shown next continues what is shown
+  live: false, // the run goes on: what is shown next continues it
   ball_px: 13, // radius of the ball on a map with a scale
-  shown: null, file: 0, // the run whose program, variables and events are listed, and the file of it
+  shown: null, file: 0, // the run whose program, variables and events are listed, and its file
 };
 
 export function take(run, run_before) {
@@ -25,16 +25,16 @@ export function take_room({ balls }) {
   playback.before = null;
   playback.end = Math.max(1, ...playback.room.map(one => one.run.end.t));
 }
-/** From now on this ball of the room is the one that is looked at. */
+/** Makes this ball of the room the one shown. */
 export function look_at_ball(one) {
   playback.main = one;
   playback.runs = [one];
 }
-/** Those on the same floor as the one that is looked at. */
+/** The other balls of the room. */
 export const others = () => playback.room.filter(one => one !== playback.main);
 
 const watchers = [];
-/** `show(state)` is called with the ball as it is whenever the moment, or what it shows, has changed. */
+/** Calls `show(state)` with the ball's state whenever the moment, or what it shows, has changed. */
 export function watch(show) { watchers.push(show); }
 export function show() {
   const state = playback.main.state_at(playback.now);

@@ -1,4 +1,4 @@
-// Plays runs back on the parts of the page that are there.
+// Plays runs back in the parts that the page has.
 
 import { $, clamp } from "./dom.js";
 import { forget_events, list_more_events } from "./events.js";
@@ -20,7 +20,7 @@ function draw_everything(draw = draw_maps) {
   draw_lanes();
   show();
 }
-/** Shows a run as it ended; one that `goes_on` from the moment shown. */
+/** Shows a run at its end; one that `goes_on` at its start. */
 function load(run, run_before = null, goes_on = false) {
   const continued = playback.live;
   take(run, run_before);
@@ -41,14 +41,14 @@ function load(run, run_before = null, goes_on = false) {
   show_still();
   list_runs();
   list_lanes();
-  playback.live ||= continued; // its last piece is one more
+  playback.live ||= continued; // the lists continue with its end
   choose(playback.main);
   playback.live = goes_on;
   draw_track();
   playback.now = clamp(playback.now, 0, playback.end);
   draw_everything(continued ? draw_maps_eased : draw_maps);
 }
-/** Shows a room of balls as it ended, and its first ball. */
+/** Shows a room of balls at its end, with its first ball. */
 function load_room(room) {
   take_room(room);
   playback.live = false;
@@ -59,7 +59,7 @@ function load_room(room) {
   on_ball_chosen(show_ball);
   show_ball(playback.room[0]);
 }
-/** Looks at one ball of the room, at the same moment. */
+/** Shows one ball of the room, at the same moment. */
 function show_ball(one) {
   look_at_ball(one);
   forget_events();
@@ -74,7 +74,7 @@ function show_ball(one) {
   draw_track();
   draw_everything();
 }
-/** More of a run that goes on, up to `t` microseconds. */
+/** Adds more of a live run, up to `t` microseconds. */
 function grow(more, t) {
   if (!playback.live) return;
   const first = playback.main.pose.t.length;
@@ -84,7 +84,7 @@ function grow(more, t) {
   list_more_events(more.events);
   grow_maps(first, more.events);
 }
-/** A run that went on is over, and nothing more is known of it. */
+/** Ends a live run of which nothing more will come. */
 function settle() {
   if (!playback.live) return;
   set_playing(false);
@@ -98,7 +98,7 @@ function settle() {
   draw_track();
   draw_everything(draw_maps_eased);
 }
-/** The moment that the address asks for: `#t=3.2`, in seconds; null where it asks for none. */
+/** The moment in the address, in microseconds: `#t=3.2` is in seconds; null if there is none. */
 function asked_time() {
   const asked = /^#t=(\d+(?:\.\d+)?)$/.exec(location.hash);
   return asked && playback.main ? clamp(Number(asked[1]) * 1e6, 0, playback.end) : null;
@@ -115,9 +115,9 @@ new ResizeObserver(() => {
   pending = requestAnimationFrame(() => { if (playback.main) draw_everything(); });
 }).observe($("map"));
 
-/** What plays runs back: `load()` takes the data of a run, of the report's own or of one
- *  that still goes on, and `grow()` more of that. `keys`: within what its keys work; `on_moment`: is told the lines that ran last,
- *  file by file, when the moment changes. `ball_px`: how large the ball is on a map with a scale, as its radius. */
+/** Makes the player: `load()` takes the data of a run, finished or live, and `grow()` more of a live one. `keys`: the
+ *  element in which its keys work; `on_moment(lines)` gets the lines that ran last, file by file, when the moment changes;
+ *  `ball_px`: the radius of the ball on a map with a scale. */
 export function orb_player({ keys = document, on_moment = null, ball_px = playback.ball_px } = {}) {
   playback.ball_px = ball_px;
   take_keys(keys);

@@ -19,7 +19,7 @@ matrix_pair.append(element("dt", {}, "matrix"), matrix);
 $("now").prepend(matrix_pair);
 
 let lit = null;
-/** Only what has the colour is told of it: of the whole page each element would be styled anew. */
+/** Sets the colour only where it is used: set on the page, it would restyle every element. */
 function show_lamp(lamp, color) {
   if (lamp === lit) return;
   lit = lamp;

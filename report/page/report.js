@@ -1,4 +1,4 @@
-// The page of one run, or of a room of balls: it holds what it plays back.
+// The page of one run, or of a room of balls; it contains the data.
 
 import { orb_player } from "./player.js";
 

@@ -11,7 +11,7 @@ const languages_of = ({ words }) => ({
   orb: { words: kinds_of(words.basic, words.structured), tokens: /(?<comment>'.*)|(?<string>"[^"]*"?)|(?<number>#[\da-f]{6}\b|\d\w*(?:\.\d\w*)?)|(?<name>[a-z_]\w*)|[^'"#\da-z_]+|#/gi },
   macro: { words: kinds_of(words.macro), tokens: /(?<comment>[#;].*)|(?<string>"(?:\\.|[^"\\])*"?)|(?<directive>\.\w+)|(?<number>-?\b\d\w*(?:\.\d+\w*)?)|(?<name>[A-Za-z_]\w*)|[^#;"\dA-Za-z_]/g },
 });
-/** A line in the colours of its language; what no rule knows stays as it is. */
+/** Colours a line of its language; what no rule matches stays plain. */
 function colored(text, { words, tokens }) {
   const cell = element("td");
   let first = true;
@@ -64,7 +64,7 @@ $("source")?.addEventListener("click", event => {
 });
 export function list_files() {
   if (!$("source")) return show_file(0);
-  // A robot that is driven from elsewhere has no program of its own.
+  // A robot that is driven from elsewhere has no program.
   const none = !playback.shown.run.files.length;
   for (const part of [document.querySelector(".pane.source"), readings.line.parentElement, $("line-back"), $("line-on")]) part.hidden = none;
   document.querySelector(".board").classList.toggle("has-no-program", none);
@@ -92,7 +92,7 @@ watch(show_line);
 /** The lines that ran last, file by file. */
 export const lines_now = () => playback.shown.steps.map(({ t, line }, k) => ({ name: playback.shown.run.files[k].name, line: line[last_at(t, playback.now)] ?? 0 }));
 
-/** To the line that ran before or after this moment, in whatever file it stands. */
+/** Jumps to the line that ran before or after this moment, in any file. */
 export function step_line(by) {
   const times = playback.shown.line_times, last = last_at(times, playback.now);
   const wanted = by > 0 ? last + 1 : last_at(times, playback.now - 1);

@@ -1,4 +1,4 @@
-// Playing back: the slider, the speed, the keys.
+// Playback: the slider, the speed, the play button.
 
 import { $, clamp, clock_text, element, seconds } from "./dom.js";
 import { playback, seek, watch } from "./playback.js";
@@ -25,7 +25,7 @@ function frame(stamp) {
   if (!playback.playing) return;
   const passed = Math.max(stamp - last_frame, 0);
   last_frame = stamp;
-  // What still runs is shown a little behind, so that the ball rolls evenly from one piece to the next.
+  // A live run is shown a little late, so that the ball rolls evenly from one piece to the next.
   if (playback.live) seek(clamp(playback.now + passed * 1000, playback.end - live_delay, playback.end));
   else seek(playback.now + passed * 1000 * Number($("rate").value));
   if (playback.now >= playback.end && !playback.live) set_playing(false);
