@@ -58,8 +58,6 @@ void ValuesPass::check_outside(const Item& value, std::string_view word,
       add_can_be(value, allowed_values(word, parameter), usual->lo);
     else if (usual && usual->hi > parameter.greatest)
       add_can_be(value, allowed_values(word, parameter), usual->hi);
-    else
-      doubt(value, parameter.least, parameter.greatest);
   }
 }
 
@@ -426,7 +424,6 @@ void ValuesPass::check_index(Span span) {
   indexed_used_ = true;
   const auto& index = letters_[index_letter];
   const auto range = now_.ranges[index_letter];
-  index_doubt_ = index_doubt_ || !is_exact(index_letter);
   const auto most = spec::value_of(spec::Limit::IndexedVariables);
   if (range.misses(1, most)) {
     if (index.first_set == nullptr)
@@ -483,9 +480,8 @@ void ValuesPass::check_on(const OnView& on) {
   const auto list = counted(targets.size(), texts::ListHasOne, texts::ListHas);
   if (range.misses(1, count))
     findings_.add(rules::SelectorRange, selector.span, texts::FoundValue(list, shown(range)));
-  else if (!known_[selector.value].exact && !is_counted(selector))
-    doubt(selector, 1, count);
-  else if (range.lo < 1 || range.hi > count)
+  else if ((known_[selector.value].exact || is_counted(selector)) &&
+           (range.lo < 1 || range.hi > count))
     add_may_leave(selector, list,
                   range.hi > count ? counted(static_cast<std::size_t>(range.hi - count),
                                              texts::WriteOneMoreNumber, texts::WriteMoreNumbers)
@@ -503,11 +499,8 @@ void ValuesPass::check_answer(const Comparison& comparison) {
   if (!letter || !number_in(program_, comparison.right) ||
       static_cast<spec::Relation>(comparison.relation.value) != spec::Relation::Equal)
     return;
-  if ((now_.dense & bit(*letter)) == 0) {
-    if (!now_.ranges[*letter].constant() && !followed_)
-      questions_.push_back({*letter, range_of(comparison.right).lo});
+  if ((now_.dense & bit(*letter)) == 0)
     return;
-  }
   const auto& range = now_.ranges[*letter];
   const auto& value = range_of(comparison.right);
   if (range.constant() || range.has(value.lo))

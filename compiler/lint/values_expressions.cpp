@@ -120,7 +120,10 @@ void ValuesPass::check_binary(const Node& node, std::uint32_t index) {
   const bool shifts = op == spec::Operator::ShiftLeft || op == spec::Operator::ShiftRight;
   const auto most = spec::value_of(spec::Limit::GreatestShift);
   if (divides && right == Range::only(0)) {
-    findings_.add(rules::DivisionByZero, right_span, texts::DividesByZero());
+    findings_.add(rules::DivisionByZero, right_span,
+                  program_.nodes[index - 1].kind == NodeKind::Number
+                      ? texts::DividesByZero()
+                      : texts::DividesByZeroHere(program_.text_of(right_span)));
     known_[index].range = {};
   } else if (shifts && right.misses(0, most)) {
     findings_.add(rules::ValueOutOfRange, right_span,

@@ -68,38 +68,10 @@ public:
       : program_(program), flow_(flow), target_(target), findings_(findings),
         known_(program.nodes.size()), ways_(program, flow) {}
 
-  /// Propagates values only through straight runs of lines, and forgets them at jump targets.
-  void run();
-
-  /// True if following all paths could find more: a letter that is unknown here is somewhere
-  /// assigned a value that is not allowed here.
-  bool may_say_more();
-
-  /// The same, following all paths.
-  void run_followed();
+  /// If jumps are unknown, follows values only up to the next line that a jump may reach.
+  void run(Jumps jumps);
 
 private:
-  /// An expression without a finding because its letters are unknown.
-  struct Doubt {
-    std::uint32_t root;
-    std::int64_t least; ///< least allowed value
-    std::int64_t greatest;
-  };
-
-  /// A letter, unknown here, compared by `=`.
-  struct Question {
-    std::uint32_t letter;
-    std::int32_t number;
-  };
-
-  void doubt(const Item& value, std::int64_t least, std::int64_t greatest);
-
-  /// Records the value assigned to a letter if it is known without context.
-  void note_given(std::uint32_t letter, Range range, const Node* root);
-
-  /// True if a value is a sum wrapped by `%`, which is non-negative if its terms are.
-  bool is_wrapped(const Node& root) const;
-
   // ---- letters
 
   void collect_letters();
@@ -297,11 +269,6 @@ private:
   LetterFacts unknown_; ///< the unknown state, except that letters without an assignment are 0
   LetterFlow ways_;
   std::vector<Loop> loops_; ///< loops entered so far
-  std::vector<Doubt> doubts_;
-  std::vector<Question> questions_;
-  bool index_doubt_ = false; ///< `Z` is used while `Y` is unknown
-  std::array<std::optional<Range>, most_letters>
-      given_{};             ///< values known without context, over all lines
   Range data_range_;        ///< of all `data` values
   std::uint32_t block_ = 0; ///< the line where the current run of lines began
   LetterSet tested_ = 0;    ///< letters narrowed by the condition of this line

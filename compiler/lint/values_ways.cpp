@@ -2,35 +2,6 @@
 
 namespace orb::compiler {
 
-void ValuesPass::doubt(const Item& value, std::int64_t least, std::int64_t greatest) {
-  if (followed_)
-    return;
-  if (doubts_.empty())
-    doubts_.reserve(flow_.code.size()); // once, if there are any
-  doubts_.push_back({value.value, least, greatest});
-}
-
-void ValuesPass::note_given(std::uint32_t letter, Range range, const Node* root) {
-  if (followed_ || following_ || range == Range{})
-    return;
-  if (range.lo < 0 && root != nullptr && is_wrapped(*root))
-    range.lo = 0;
-  auto& given = given_[letter];
-  given = given ? join(*given, range) : range;
-}
-
-bool ValuesPass::is_wrapped(const Node& root) const {
-  if (root.kind != NodeKind::Binary ||
-      static_cast<spec::Operator>(root.what) != spec::Operator::Remainder)
-    return false;
-  for (const auto* node = &program_.nodes[root.first]; node != &root; ++node)
-    if (node->kind == NodeKind::Negate ||
-        (node->kind == NodeKind::Binary &&
-         static_cast<spec::Operator>(node->what) == spec::Operator::Subtract))
-      return false;
-  return true;
-}
-
 void ValuesPass::collect_letters() {
   for (const auto kind :
        {spec::Statement::Let, spec::Statement::For, spec::Statement::Read, spec::Statement::Input})
@@ -315,7 +286,6 @@ void ValuesPass::set(const LetView& let) {
                       static_cast<spec::Operator>(root.what) == spec::Operator::Multiply;
   const LetterSet exact = known_[let.expression.value].exact;
   const bool number = range.constant();
-  note_given(let.variable.value, range, &root);
   set_letter(let.variable.value, range, exact, spread || number ? 0 : exact);
 }
 
@@ -345,7 +315,6 @@ void ValuesPass::begin_loop(const ForView& loop, std::uint32_t code) {
   if (!counts)
     return;
   const auto body = rounds(loop, start, end, step);
-  note_given(loop.variable.value, body, nullptr);
   set_letter(loop.variable.value, body);
   if (loop.variable.value == index_letter && start.constant())
     index_begins_ = start.lo;
