@@ -415,7 +415,7 @@ const ball = new Ball({ machine, player, workspace: () => workspace, remark, on_
     steps.ran();
     if (is_loud) with_sounds(sounds => sounds.switch_on(true)); // browsers allow it only in a click
   } });
-const judge = asked => Object.keys(asked.files).some(is_foreign) ? with_edu(edu => edu.test(asked)) : machine.call("test", asked);
+const judge = asked => Object.keys(asked.files).some(is_foreign) ? with_edu(edu => edu.test(asked)) : machine.call("test", { ...asked, format: "json" });
 let verdicts = null;
 const with_verdicts = on_demand(async () => verdicts = new (await import("./page/verdicts.js")).Verdicts({ machine, judge, ball, map: { area, on_draw, redraw, shape }, workspace: () => workspace, on_place: go_to, on_hand_in: () => hand_in(),
   on_passed() {

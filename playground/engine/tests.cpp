@@ -54,9 +54,15 @@ tl::expected<testing::Suite, Problem> read_suite(Request& request, structured::F
   return make_suite(request, suite_options(request), files);
 }
 
-Answer results_of(const testing::Results& results, std::string_view text, Request& request) {
-  return fmt::format(R"({{"text":{},"results":{}}})", print(text),
-                     testing::render_json(results, request.said.say()));
+Answer results_of(const testing::Results& results, Request& request) {
+  const auto json = testing::render_json(results, request.said.say());
+  const auto format = request.text("format");
+  if (format == "json")
+    return fmt::format(R"({{"results":{}}})", json);
+  const auto text = format == "junit"
+                        ? testing::render_junit(results)
+                        : testing::render_text(results, testing::Listing::All, Style{});
+  return fmt::format(R"({{"text":{},"results":{}}})", print(text), json);
 }
 
 Answer test(Request& request) {
@@ -64,9 +70,7 @@ Answer test(Request& request) {
   if (!suite)
     return tl::unexpected(suite.error());
   Unwatched progress;
-  const auto results = testing::run_suite(*suite, {}, progress);
-  return results_of(results, testing::render_text(results, testing::Listing::All, Style{}),
-                    request);
+  return results_of(testing::run_suite(*suite, {}, progress), request);
 }
 
 Answer replay(Request& request) {

@@ -8,8 +8,9 @@ namespace orb::playground {
 
 /// Reads the test files that a request names, with all that they name; fails if they have mistakes.
 tl::expected<testing::Suite, Problem> read_suite(Request& request, structured::Files& files);
-/// The results, with a text for people.
-Answer results_of(const testing::Results& results, std::string_view text, Request& request);
+/// The results as JSON, and as the text that `format` asks for: `text` if it is absent, `junit`, or
+/// none for `json`.
+Answer results_of(const testing::Results& results, Request& request);
 
 /// Runs test files and judges them.
 Answer test(Request& request);

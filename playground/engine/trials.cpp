@@ -2,7 +2,6 @@
 
 #include "playground/engine/tests.h"
 #include "robot/words.h"
-#include "testing/verdicts/render.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -239,12 +238,7 @@ Answer Trials::end(Request& request) {
                                    : known->second;
   };
   NoProgress progress;
-  const auto results = testing::run_suite(*suite_, options, progress);
-  return results_of(results,
-                    request.text("format") == "junit"
-                        ? testing::render_junit(results)
-                        : testing::render_text(results, testing::Listing::All, Style{}),
-                    request);
+  return results_of(testing::run_suite(*suite_, options, progress), request);
 }
 
 void Trials::forget(const robot::Robot* robot) {

@@ -55,7 +55,7 @@ function play(engine, given) {
 }
 
 function test(engine, files, name) {
-  const done = attempt(() => engine.call("test", { files, names: [name] }));
+  const done = attempt(() => engine.call("test", { files, names: [name], format: "json" }));
   const [first] = done?.results?.tests ?? [];
   if (first) attempt(() => engine.call("replay", { files, names: [name], test: first.test, seed: first.cases[0]?.seed ?? 1, program: first.program }));
 }

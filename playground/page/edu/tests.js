@@ -61,7 +61,7 @@ export function make_tests({ machine, ball, table, kind, say }) {
         const known = runs.get(key_of(one));
         if (!known || known.verdict === "passed" && verdict !== "passed") runs.set(key_of(one), { verdict, report });
       }
-      const { results } = await machine.call("trials_end");
+      const { results } = await machine.call("trials_end", { format: "json" });
       const all = Object.values(mistakes);
       return { results, report_of: one => runs.get(key_of(one))?.report, findings: all.length ? { diagnostics: all } : null };
     } finally {
