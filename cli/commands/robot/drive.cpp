@@ -264,7 +264,8 @@ tl::expected<void, Failure> drive_by_hand(Context& context, const DriveOptions& 
   auto connected = connect_robot(context, options.port, options.robot);
   if (!connected)
     return tl::unexpected(connected.error());
-  auto& [link, tether, again] = **connected;
+  auto& link = (*connected)->link;
+  auto& tether = (*connected)->tether;
   const auto named = [&](Failure failure) {
     return tl::unexpected(name_robot(link, options.robot, std::move(failure)));
   };
