@@ -5,7 +5,7 @@
 #include "compiler/check.h"
 #include "compiler/text/image.h"
 #include "editor/language.h"
-#include "editor/languages/structured/tree.h"
+#include "editor/languages/structured/block_rows.h"
 #include "protocol/macro.h"
 #include "report/course.h"
 #include "run/check_files.h"

@@ -1,4 +1,4 @@
-#include "editor/languages/structured/tree.h"
+#include "editor/languages/structured/block_rows.h"
 
 #include "base/source.h"
 #include "spec/basic.h"

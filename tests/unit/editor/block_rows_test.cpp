@@ -1,6 +1,6 @@
 // A structured program as rows, from which the page makes blocks.
 
-#include "editor/languages/structured/tree.h"
+#include "editor/languages/structured/block_rows.h"
 
 #include "spec/basic.h"
 #include "structured/layout/format.h"
@@ -52,7 +52,7 @@ std::string value_of(std::string_view expression) {
 
 using Rows = std::vector<std::string>;
 
-TEST(StructuredTree, HasARowForEachLineAsFmtWritesIt) {
+TEST(BlockRows, HasARowForEachLineAsFmtWritesIt) {
   EXPECT_EQ(
       brief_rows("' head\n\n\n SIDE=1200  ' how far\ngoroll 0,80,1\nagain:\nGoto again\n"),
       (Rows{R"(1 comment text="' head")",
@@ -61,7 +61,7 @@ TEST(StructuredTree, HasARowForEachLineAsFmtWritesIt) {
             R"(6 label name="again" text="again:")", R"(7 goto name="again" text="goto again")"}));
 }
 
-TEST(StructuredTree, SaysWhatOpensAndEndsABlock) {
+TEST(BlockRows, SaysWhatOpensAndEndsABlock) {
   EXPECT_EQ(
       brief_rows("if dshake then\nend\nelse\nend\nend if\nfor n=1 to 3\nnext n\n"),
       (Rows{R"(1 if block="open" text="if dshake then")", R"(2 robot word="end" text="end")",
@@ -70,7 +70,7 @@ TEST(StructuredTree, SaysWhatOpensAndEndsABlock) {
             R"(7 next block="end" text="next n")"}));
 }
 
-TEST(StructuredTree, PutsTheBranchesOfAnIfOnOneLineIntoItsRow) {
+TEST(BlockRows, PutsTheBranchesOfAnIfOnOneLineIntoItsRow) {
   const auto rows = rows_of("if a then exit else b += 1\n' below\n");
   ASSERT_EQ(rows.size(), 2U);
   EXPECT_EQ(rows[0].at("then").at("kind"), "exit");
@@ -79,14 +79,14 @@ TEST(StructuredTree, PutsTheBranchesOfAnIfOnOneLineIntoItsRow) {
   EXPECT_EQ(rows[1].at("kind"), "comment");
 }
 
-TEST(StructuredTree, KeepsTheLinesOfAStatementThatGoesOn) {
+TEST(BlockRows, KeepsTheLinesOfAStatementThatGoesOn) {
   EXPECT_EQ(
       brief_rows("data 1, ' one\n 2,\n3 ' three\n"),
       Rows{
           R"(1 robot word="data" last=3 indent=2 text="data 1, 2, 3" lines=["data 1, ' one","2,","3"] comment="' three")"});
 }
 
-TEST(StructuredTree, KeepsWhatIsNoStatementAsItIs) {
+TEST(BlockRows, KeepsWhatIsNoStatementAsItIs) {
   EXPECT_EQ(
       brief_rows("delay 1s\n  goroll  0  80\n\n' note\n\tend  while ' x\nwhile a\ndelay 2s\n"),
       (Rows{R"(1 robot word="delay" text="delay 1s")", R"(2 text lines=["  goroll  0  80"])",
@@ -94,7 +94,7 @@ TEST(StructuredTree, KeepsWhatIsNoStatementAsItIs) {
             R"(6 text lines=["while a"])", R"(7 robot word="delay" text="delay 2s")"}));
 }
 
-TEST(StructuredTree, HasTheOperandsOfExpressionsAndTheirGroups) {
+TEST(BlockRows, HasTheOperandsOfExpressionsAndTheirGroups) {
   EXPECT_EQ(value_of("a + 2 * -b"),
             "operation:+ [name:a] [operation:* [number:2] [negate:- [name:b]]]");
   EXPECT_EQ(value_of("((a) + (b)) - (1s)"),
@@ -107,7 +107,7 @@ TEST(StructuredTree, HasTheOperandsOfExpressionsAndTheirGroups) {
             "[builtin:min [number:2] [sensor:speed]]]]] [name:c]");
 }
 
-TEST(StructuredTree, LeavesWhatIsTooLargeAsText) {
+TEST(BlockRows, LeavesWhatIsTooLargeAsText) {
   std::string sum = "x = 1";
   for (int n = 0; n < 100'000; ++n)
     sum += " + 1";
@@ -153,14 +153,14 @@ std::string written(const Json& rows) {
   return out;
 }
 
-TEST(StructuredTree, HasAllThatFmtWrites) {
+TEST(BlockRows, HasAllThatFmtWrites) {
   for (std::uint64_t seed = 1; seed <= 300; ++seed) {
     const auto text = structured::format(testing::RandomStructured(seed).write());
     ASSERT_EQ(written(rows_of(text)), text) << "seed " << seed;
   }
 }
 
-TEST(StructuredTree, TakesAnyBytes) {
+TEST(BlockRows, TakesAnyBytes) {
   Random random{1};
   for (int n = 0; n < 2000; ++n) {
     std::string text;
