@@ -24,7 +24,7 @@ std::optional<spec::BleCharacteristic> characteristic_of(ByteView uuid) {
   std::string text;
   for (std::size_t i = uuid_size; i-- > 0;) {
     text += fmt::format("{:02x}", uuid[i]);
-    for (const std::size_t parted : {12, 10, 8, 6})
+    for (const std::size_t parted : {12U, 10U, 8U, 6U})
       if (i == parted)
         text += '-';
   }
