@@ -218,10 +218,11 @@ TEST(Golden, EveryTextIsShown) {
   }
   const auto texts = all_texts();
   EXPECT_GT(texts.size(), 400U);
-  for (const auto& [name, text] : texts)
-    EXPECT_TRUE(
-        std::any_of(lines.begin(), lines.end(), [&](const auto& line) { return says(line, text); }))
+  for (const auto& [name, text] : texts) {
+    const auto says_it = [&said = text](const auto& line) { return says(line, said); };
+    EXPECT_TRUE(std::any_of(lines.begin(), lines.end(), says_it))
         << name << " occurs in no transcript: " << text;
+  }
 }
 
 TEST(Golden, EveryTextIsDeclaredOnce) {

@@ -65,8 +65,9 @@ Coverage translate_all(const Heard& heard, const std::filesystem::path& translat
   Coverage coverage;
   for (const auto& [sentence, times] : heard.times) {
     coverage.said += times;
+    const auto& message = heard.messages.at(sentence);
     if (std::all_of(languages.begin(), languages.end(),
-                    [&](const json& texts) { return knows(texts, heard.messages.at(sentence)); }))
+                    [&](const json& texts) { return knows(texts, message); }))
       coverage.translated += times;
     else
       coverage.missing += fmt::format("{:4} {}\n", times, sentence);
