@@ -22,7 +22,7 @@ TEST(Layout, MovesNothingButBlanks) {
   constexpr std::string_view pieces[] = {
       "test ", "\"a  b\"", "\"open", "# c",   "\n",  "\r\n", "\r", "  ", "\t",      "/",
       "/x y/", "\\/",      "expect", "at 2s", "0,0", "#",    "\"", "é",  "#ff0000 "};
-  Random random(1);
+  Random random{1};
   for (int run = 0; run < 20000; ++run) {
     std::string text;
     for (auto n = random.below(12); n > 0; --n)
