@@ -70,7 +70,7 @@ tl::expected<Home, Failure> approach(Tether& robot, vm::Sample sample) {
 
 tl::expected<Home, Failure> drive_home(protocol::Transport& transport,
                                        const TetherOptions& tether) {
-  Tether robot(transport, tether.robot, tether.budgets);
+  Tether robot(transport, tether.robot, tether.budgets, {}, tether.reopen);
   const auto first = robot.begin(Aim::Keep);
   if (!first)
     return tl::unexpected(first.error());

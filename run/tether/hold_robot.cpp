@@ -10,7 +10,7 @@ namespace {
 class TetheredRobot final : public HeldRobot {
 public:
   TetheredRobot(protocol::Transport& transport, const TetherOptions& options)
-      : options_(options), robot_(transport, options.robot, options.budgets) {}
+      : options_(options), robot_(transport, options.robot, options.budgets, {}, options.reopen) {}
 
   tl::expected<void, Failure> begin() {
     auto first = robot_.begin(options_.aim);

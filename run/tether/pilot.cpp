@@ -138,12 +138,9 @@ std::string Pilot::words() const {
   return text;
 }
 
-Attended drive_attended(Tether& robot, const TetherOptions& tether,
-                        const std::function<tl::expected<void, Failure>()>& drive) {
-  Attended end{contain(drive), {robot.finish(), nullptr}};
-  if (!end.stopping.stopped && !end.driven && end.driven.error().code == ExitCode::LinkLost)
-    end.stopping = stop_anew(robot, tether);
-  return end;
+Attended drive_attended(Tether& robot, const std::function<tl::expected<void, Failure>()>& drive) {
+  auto driven = contain(drive);
+  return {std::move(driven), robot.finish()};
 }
 
 } // namespace orb::run

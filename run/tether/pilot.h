@@ -1,13 +1,11 @@
 #pragma once
 
-#include "run/tether/run_tethered.h"
 #include "run/tether/tether.h"
 #include "spec/robots.h"
 #include "vm/matrix.h"
 
 #include <cstdint>
 #include <functional>
-#include <memory>
 #include <optional>
 #include <string>
 #include <tl/expected.hpp>
@@ -74,12 +72,11 @@ private:
 /// How an attended drive ended.
 struct Attended {
   tl::expected<void, Failure> driven;
-  Stopping stopping;
+  bool stopped = false; ///< the robot has acknowledged the stop
 };
 
 /// Lets `drive` drive a prepared robot, then stops it whatever happened, even if `drive` threw (see
-/// contain()). Reopens the link for that if it was lost.
-Attended drive_attended(Tether& robot, const TetherOptions& tether,
-                        const std::function<tl::expected<void, Failure>()>& drive);
+/// contain()).
+Attended drive_attended(Tether& robot, const std::function<tl::expected<void, Failure>()>& drive);
 
 } // namespace orb::run

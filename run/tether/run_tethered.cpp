@@ -80,7 +80,7 @@ tl::expected<TetheredEnding, Failure> run_tethered(std::span<const Input> inputs
                                                    const TetherOptions& tether) {
   // A report has lanes for all sensors.
   const auto streamed = journey == nullptr ? read_by(inputs) : Streamed{};
-  Tether robot(transport, tether.robot, tether.budgets, streamed);
+  Tether robot(transport, tether.robot, tether.budgets, streamed, tether.reopen);
   const auto first = robot.begin(tether.aim);
   if (!first)
     return tl::unexpected(first.error());
@@ -136,12 +136,6 @@ tl::expected<TetheredEnding, Failure> run_tethered(std::span<const Input> inputs
     run.end();
     stopped = robot.finish(run.hear());
   }
-  Stopping anew; // keeps the link of `robot` open
-  const bool lost = robot.link_lost() || (failure && failure->code == ExitCode::LinkLost);
-  if (!stopped && lost) {
-    anew = stop_anew(robot, tether);
-    stopped = anew.stopped;
-  }
   if (!failure)
     failure = robot.verdict();
   if (is_bug(failure))
@@ -157,21 +151,6 @@ tl::expected<TetheredEnding, Failure> run_tethered(std::span<const Input> inputs
   }
   return TetheredEnding{
       finished(*std::move(ending), stopped), std::move(failure), tether.robot, {}};
-}
-
-Stopping stop_anew(Tether& robot, const TetherOptions& tether) {
-  Stopping anew;
-  if (!tether.reopen)
-    return anew;
-  do {
-    auto next = tether.reopen();
-    if (next == nullptr)
-      break;
-    robot.relink(*next);
-    anew.link = std::move(next);
-    anew.stopped = robot.finish();
-  } while (!anew.stopped && robot.link_lost());
-  return anew;
 }
 
 tl::expected<TetheredEnding, Failure> run_replayed(std::span<const Input> inputs,

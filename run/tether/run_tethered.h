@@ -5,7 +5,6 @@
 #include "run/tether/tether.h"
 
 #include <functional>
-#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -19,8 +18,7 @@ struct TetherOptions {
   spec::Robot robot = spec::Robot::Sphero;
   Aim aim = Aim::Zero;
   TetherBudgets budgets;
-  /// Reopens a lost link; null if that is impossible or the robot has stopped by itself.
-  std::function<std::unique_ptr<protocol::Transport>()> reopen;
+  Reopen reopen; ///< may be empty
   /// Records the run; may be null.
   DriveRecording* recording = nullptr;
   /// Called when the program starts: events scheduled for a virtual robot count from here. May be
@@ -29,16 +27,6 @@ struct TetherOptions {
   /// Receives sentences for people during the run.
   std::function<void(const std::string&)> note;
 };
-
-/// How a robot was stopped.
-struct Stopping {
-  bool stopped = false;                      ///< the robot has acknowledged the stop
-  std::unique_ptr<protocol::Transport> link; ///< the link reopened for that; null if none
-};
-
-/// Stops the robot over a link that `tether` reopens, and over the next if that is lost, too: a
-/// port that comes back may be taken before it works.
-Stopping stop_anew(Tether& robot, const TetherOptions& tether);
 
 struct TetheredEnding {
   Ending ending;

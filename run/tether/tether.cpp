@@ -24,8 +24,8 @@ constexpr Duration longest_wait = 200ms;
 } // namespace
 
 Tether::Tether(protocol::Transport& transport, spec::Robot robot, const TetherBudgets& budgets,
-               const Streamed& streamed)
-    : transport_(&transport), robot_(robot), budgets_(budgets),
+               const Streamed& streamed, Reopen reopen)
+    : reopen_(std::move(reopen)), transport_(&transport), robot_(robot), budgets_(budgets),
       wire_(make_wire(robot, budgets.collisions)), streamed_(streamed),
       looked_at_(transport.now()) {}
 
@@ -112,7 +112,7 @@ tl::expected<std::optional<Bytes>, Failure> Tether::ask(const Request& request, 
 tl::expected<vm::Sample, Failure> Tether::begin(Aim aim) {
   began_ = true;
   const auto fail = [&](Failure failure) {
-    const bool stopped = finish();
+    const bool stopped = finish_here({}); // it has not been driven, so a lost link stays lost
     if (!stopped)
       failure.message += "; a stop was sent but not acknowledged";
     return tl::unexpected(std::move(failure));
@@ -647,6 +647,21 @@ void Tether::await_rest(const std::function<void(const RobotMessage&)>& hear) {
 }
 
 bool Tether::finish(const std::function<void(const RobotMessage&)>& hear) {
+  bool stopped = finish_here(hear);
+  for (bool lost = link_lost_ || sample_age() >= budgets_.gone; !stopped && lost && reopen_;
+       lost = link_lost_) {
+    auto next = reopen_();
+    if (next == nullptr)
+      break;
+    relink(*next);
+    again_ = std::move(next);
+    stopped = finish_here({});
+  }
+  return stopped;
+}
+
+/// As finish(), over the present link.
+bool Tether::finish_here(const std::function<void(const RobotMessage&)>& hear) {
   const bool braked = brake(hear);
   finished_ = true; // not earlier: `hear` may throw
   if (!braked)

@@ -41,6 +41,9 @@ struct TetherBudgets {
   Duration battery = 10s;     ///< interval of asking for its voltage
 };
 
+/// Opens a lost link again; null if that is impossible or the robot has stopped by itself.
+using Reopen = std::function<std::unique_ptr<protocol::Transport>()>;
+
 /// A robot at the other end of a link, used as the body of a ball. Set-points wait here, and the
 /// latest of a kind replaces earlier ones; they are sent no faster than the robot takes them. A
 /// stop is never dropped, overtakes waiting requests and is repeated until acknowledged. The
@@ -48,9 +51,9 @@ struct TetherBudgets {
 /// is unanswered or has failed.
 class Tether final : public vm::RemoteBody {
 public:
-  /// `streamed`: what it streams besides its place.
+  /// `streamed`: what it streams besides its place. `reopen` may be empty.
   Tether(protocol::Transport& transport, spec::Robot robot, const TetherBudgets& budgets,
-         const Streamed& streamed = {});
+         const Streamed& streamed = {}, Reopen reopen = {});
   /// Stops the robot unless finish() or wind_up() has been called.
   ~Tether() override;
   Tether(const Tether&) = delete;
@@ -93,8 +96,8 @@ public:
   /// Returns a failure that shows only at the end of a run: the robot was busy all the time.
   std::optional<Failure> verdict() const;
 
-  /// Returns true if the link broke while the robot was being stopped.
-  bool link_lost() const { return link_lost_; }
+  /// Returns true if finish() had to open the link again.
+  bool is_reopened() const { return again_ != nullptr; }
   /// Replaces a lost link.
   void relink(protocol::Transport& transport);
   /// As finish(), but without blocking: pump() brakes the robot, then restores it with one request
@@ -107,7 +110,8 @@ public:
   /// can no longer send.
   Bytes stop_packets();
   /// Brakes the robot, follows it until it rests and restores it. Returns true if the brake was
-  /// acknowledged. Passes news to `hear`.
+  /// acknowledged. Passes news to `hear`. Opens a lost link again for that, and the next if that is
+  /// lost, too: a port that comes back may be taken before it works.
   bool finish(const std::function<void(const RobotMessage&)>& hear = {});
 
 private:
@@ -150,6 +154,7 @@ private:
   void send_again(const Pending& pending);
   void give_up_waiting();
   std::optional<vm::stimulus::Battery> take(const RobotMessage::Answer& answer);
+  bool finish_here(const std::function<void(const RobotMessage&)>& hear);
   bool brake(const std::function<void(const RobotMessage&)>& hear);
   void await_rest(const std::function<void(const RobotMessage&)>& hear);
   void watch_samples();
@@ -168,6 +173,8 @@ private:
   Failure refusal(const Request& request, std::uint8_t error) const;
   Failure lost(const protocol::LinkError& error) const;
 
+  Reopen reopen_;
+  std::unique_ptr<protocol::Transport> again_; ///< the link that replaced a lost one
   protocol::Transport* transport_;
   spec::Robot robot_;
   TetherBudgets budgets_;

@@ -269,7 +269,7 @@ tl::expected<void, Failure> drive_by_hand(Context& context, const DriveOptions& 
   const auto named = [&](Failure failure) {
     return tl::unexpected(name_robot(link, options.robot, std::move(failure)));
   };
-  run::Tether robot(*link.transport, tether.robot, tether.budgets);
+  run::Tether robot(*link.transport, tether.robot, tether.budgets, {}, tether.reopen);
   const auto first = robot.begin(options.keep_aim ? run::Aim::Keep : run::Aim::Zero);
   if (!first)
     return named(first.error());
@@ -291,7 +291,7 @@ tl::expected<void, Failure> drive_by_hand(Context& context, const DriveOptions& 
   if (keys.from_terminal())
     print_note(context, key_help());
   std::optional<OutputError> unread; // nobody reads the output any more
-  const auto end = run::drive_attended(robot, tether, [&]() -> tl::expected<void, Failure> {
+  const auto end = run::drive_attended(robot, [&]() -> tl::expected<void, Failure> {
     try {
       auto driven = session.go(keys);
       keys.give_back();
@@ -303,12 +303,11 @@ tl::expected<void, Failure> drive_by_hand(Context& context, const DriveOptions& 
       return {};
     }
   });
-  const auto& driven = end.driven;
-  const auto& [stopped, second] = end.stopping;
+  const auto& [driven, stopped] = end;
   print_ended(context, stopped ? ExitCode::Done : ExitCode::LinkLost,
               stopped ? run::stop_done : run::stop_lost);
   if (options.sleeps) {
-    const auto slept = second != nullptr || !stopped
+    const auto slept = robot.is_reopened() || !stopped
                            ? left_awake()
                            : put_to_sleep(*link.transport, tether.robot, link);
     print_ended(context, slept.exit, slept.words);

@@ -146,14 +146,14 @@ TEST(Attended, StopsTheRobotWhateverHappens) {
       test::FarRobot far(row.robot, *protocol::parse_fault_plan("seed=1"), 10ms);
       Tether robot(*far.link, row.robot, TetherBudgets{});
       ASSERT_TRUE(robot.begin(Aim::Zero)) << row.name;
-      const auto end = drive_attended(robot, {}, [&]() -> tl::expected<void, Failure> {
+      const auto end = drive_attended(robot, [&]() -> tl::expected<void, Failure> {
         auto driven = set_off(robot);
         EXPECT_TRUE(far.drives()) << row.name;
         if (breaks)
           throw std::runtime_error("a vase fell");
         return driven;
       });
-      EXPECT_TRUE(end.stopping.stopped) << row.name;
+      EXPECT_TRUE(end.stopped) << row.name;
       EXPECT_FALSE(far.drives()) << row.name << " is left driving";
       EXPECT_EQ(end.driven.has_value(), !breaks) << row.name;
       if (breaks) {
@@ -179,45 +179,74 @@ private:
   const protocol::Transport& clock_;
 };
 
-TEST(Attended, StopsOverTheFirstLinkThatWorksAgain) {
-  test::FarRobot far(spec::Robot::Mini, *protocol::parse_fault_plan("seed=1"), 10ms);
-  LostLink lost(*far.link);
-  Tether robot(*far.link, spec::Robot::Mini, TetherBudgets{});
-  ASSERT_TRUE(robot.begin(Aim::Zero));
-  TetherOptions tether;
-  int opened = 0;
-  tether.reopen = [&]() -> std::unique_ptr<protocol::Transport> {
-    ++opened;
-    if (opened < 3)
+/// Opens links that are lost at once, then the robot's.
+Reopen works_after(int lost, test::FarRobot& far) {
+  return [lost, &far]() mutable -> std::unique_ptr<protocol::Transport> {
+    if (lost-- > 0)
       return std::make_unique<LostLink>(*far.link);
     return std::move(far.link);
   };
-  const auto end = drive_attended(robot, tether, [&]() -> tl::expected<void, Failure> {
+}
+
+TEST(Attended, StopsOverTheFirstLinkThatWorksAgain) {
+  test::FarRobot far(spec::Robot::Mini, *protocol::parse_fault_plan("seed=1"), 10ms);
+  LostLink lost(*far.link);
+  Tether robot(*far.link, spec::Robot::Mini, TetherBudgets{}, {}, works_after(2, far));
+  ASSERT_TRUE(robot.begin(Aim::Zero));
+  const auto end = drive_attended(robot, [&]() -> tl::expected<void, Failure> {
     auto driven = set_off(robot);
     EXPECT_TRUE(driven && far.drives());
     robot.relink(lost);
     return robot.pump(robot.now() + 1s, [](const RobotMessage&) {});
   });
-  EXPECT_EQ(opened, 3);
-  EXPECT_TRUE(end.stopping.stopped);
+  EXPECT_EQ(end.driven.error().code, ExitCode::LinkLost);
+  EXPECT_EQ(far.link, nullptr); // it was opened
+  EXPECT_TRUE(robot.is_reopened());
+  EXPECT_TRUE(end.stopped);
+  EXPECT_FALSE(far.drives());
+}
+
+TEST(Attended, StopsOverANewLinkIfTheOldOneIsLostAtTheStop) {
+  test::FarRobot far(spec::Robot::Mini, *protocol::parse_fault_plan("seed=1"), 10ms);
+  LostLink lost(*far.link);
+  Tether robot(*far.link, spec::Robot::Mini, TetherBudgets{}, {}, works_after(0, far));
+  ASSERT_TRUE(robot.begin(Aim::Zero));
+  const auto end = drive_attended(robot, [&]() -> tl::expected<void, Failure> {
+    auto driven = set_off(robot);
+    robot.relink(lost);
+    return driven;
+  });
+  EXPECT_TRUE(end.driven);
+  EXPECT_TRUE(end.stopped);
+  EXPECT_FALSE(far.drives());
+}
+
+TEST(Attended, StopsOverANewLinkIfNobodyIsThereToFinish) {
+  test::FarRobot far(spec::Robot::Mini, *protocol::parse_fault_plan("seed=1"), 10ms);
+  LostLink lost(*far.link);
+  {
+    Tether robot(*far.link, spec::Robot::Mini, TetherBudgets{}, {}, works_after(0, far));
+    ASSERT_TRUE(robot.begin(Aim::Zero));
+    ASSERT_TRUE(set_off(robot));
+    robot.relink(lost);
+  }
   EXPECT_FALSE(far.drives());
 }
 
 TEST(Attended, GivesUpWhenNoLinkWorks) {
   test::FarRobot far(spec::Robot::Mini, *protocol::parse_fault_plan("seed=1"), 10ms);
   LostLink lost(*far.link);
-  Tether robot(*far.link, spec::Robot::Mini, TetherBudgets{});
-  ASSERT_TRUE(robot.begin(Aim::Zero));
-  TetherOptions tether;
   int left = 2;
-  tether.reopen = [&]() -> std::unique_ptr<protocol::Transport> {
-    return left-- > 0 ? std::make_unique<LostLink>(*far.link) : nullptr;
-  };
-  const auto end = drive_attended(robot, tether, [&]() -> tl::expected<void, Failure> {
+  Tether robot(*far.link, spec::Robot::Mini, TetherBudgets{}, {},
+               [&]() -> std::unique_ptr<protocol::Transport> {
+                 return left-- > 0 ? std::make_unique<LostLink>(*far.link) : nullptr;
+               });
+  ASSERT_TRUE(robot.begin(Aim::Zero));
+  const auto end = drive_attended(robot, [&]() -> tl::expected<void, Failure> {
     robot.relink(lost);
     return robot.pump(robot.now() + 1s, [](const RobotMessage&) {});
   });
-  EXPECT_FALSE(end.stopping.stopped);
+  EXPECT_FALSE(end.stopped);
   EXPECT_EQ(end.driven.error().code, ExitCode::LinkLost);
 }
 
