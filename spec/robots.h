@@ -9,6 +9,7 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string_view>
 
@@ -335,6 +336,15 @@ constexpr const RobotInfo* find_robot(std::string_view name) {
     if (row.name == name)
       return &row;
   return nullptr;
+}
+
+/// The robot that advertises `name` over Bluetooth LE; nullopt if no robot that can be driven does.
+constexpr std::optional<Robot> robot_called(std::string_view name) {
+  const auto* known = find_ble_name(name);
+  for (const auto& row : robots)
+    if (known != nullptr && row.ble == known->model && row.robot != Robot::Sphero)
+      return row.robot;
+  return std::nullopt;
 }
 
 /// A word of programs without effect on a robot.

@@ -48,6 +48,16 @@ struct Input {
   std::string warning;            ///< set for a truncated capture
 };
 
+/// The beginning of what is printed of a packet: when, and of which robot.
+Json logged_at(const std::string& when, const std::string& robot) {
+  Json json;
+  if (!when.empty())
+    json["at"] = when;
+  if (!robot.empty())
+    json["robot"] = robot;
+  return json;
+}
+
 /// A stream of one direction. Prints packets as soon as they are complete.
 class Printer {
 public:
@@ -86,11 +96,7 @@ private:
   void print(const Item& item) {
     if (!as_json_)
       return print_out(fmt::format("{}{}\n", prefix_, describer_.describe(item)));
-    Json json;
-    if (!when_.empty())
-      json["at"] = when_;
-    if (!robot_.empty())
-      json["robot"] = robot_;
+    auto json = logged_at(when_, robot_);
     json["from"] = from_;
     json.update(packet_json(describer_, item));
     print_json(json);
@@ -110,8 +116,7 @@ std::string_view v2_kind_name(const protocol::ItemV2& item) {
   using Kind = protocol::ItemV2::Kind;
   switch (item.kind) {
   case Kind::Packet:
-    return (item.packet.flags & static_cast<std::uint8_t>(spec::V2Flag::Response)) != 0 ? "response"
-                                                                                        : "command";
+    return spec::has(item.packet.flags, spec::V2Flag::Response) ? "response" : "command";
   case Kind::Noise: return "noise";
   case Kind::BadChecksum: return "bad-checksum";
   case Kind::Incomplete: return "incomplete";
@@ -121,11 +126,7 @@ std::string_view v2_kind_name(const protocol::ItemV2& item) {
 
 Json logged_json(const protocol::ItemV2& item, const std::string& when, const std::string& robot,
                  protocol::DescriberV2& describer) {
-  Json json;
-  if (!when.empty())
-    json["at"] = when;
-  if (!robot.empty())
-    json["robot"] = robot;
+  auto json = logged_at(when, robot);
   json["kind"] = v2_kind_name(item);
   if (item.kind == protocol::ItemV2::Kind::Packet) {
     const auto& packet = item.packet;
@@ -282,11 +283,7 @@ void print_greeting(const LogLine& line, const std::string& prefix, const std::s
     return print_out(fmt::format("{}greeting {}\n", prefix,
                                  is_word ? fmt::format("\"{}\"", text) : to_hex(line.bytes)));
   }
-  Json json;
-  if (!line.when.empty())
-    json["at"] = line.when;
-  if (!robot.empty())
-    json["robot"] = robot;
+  auto json = logged_at(line.when, robot);
   json["from"] = "client";
   json["kind"] = "greeting";
   json["raw"] = to_hex(line.bytes);

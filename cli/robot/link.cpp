@@ -153,19 +153,6 @@ tl::expected<Endpoint, Failure> find_endpoint(const Config& config, const std::s
   return *endpoint;
 }
 
-namespace {
-
-/// The robot that advertises such a name; nothing if several models do, or none.
-std::optional<spec::Robot> robot_called(std::string_view name) {
-  const auto* known = spec::find_ble_name(name);
-  for (const auto& row : spec::robots)
-    if (known != nullptr && row.ble == known->model && row.robot != spec::Robot::Sphero)
-      return row.robot;
-  return std::nullopt;
-}
-
-} // namespace
-
 std::optional<spec::Robot> named_robot(const Config& config, const std::string& port) {
   if (port.starts_with("@"))
     if (const auto ball = config.balls.find(port.substr(1));
@@ -174,7 +161,7 @@ std::optional<spec::Robot> named_robot(const Config& config, const std::string& 
   const auto endpoint = find_endpoint(config, port);
   if (!endpoint || endpoint->scheme != Scheme::Ble || endpoint->name.empty())
     return std::nullopt;
-  return robot_called(endpoint->name);
+  return spec::robot_called(endpoint->name);
 }
 
 namespace {
@@ -268,7 +255,7 @@ tl::expected<void, Failure> open_real(Link& link, const Endpoint& endpoint,
                                       const uploader::OnBleStep& on_step) {
   const auto meet = [&link](const uploader::BlePeer& peer) {
     link.packets = peer.protocol == spec::BleProtocol::V2 ? spec::Packets::V2 : spec::Packets::V1;
-    const auto called = robot_called(peer.name);
+    const auto called = spec::robot_called(peer.name);
     if (!link.named && called && spec::info(*called).packets == link.packets)
       link.named = called;
   };

@@ -1,16 +1,11 @@
 #include "playground/engine/reins.h"
 
-#include "spec/ble.h"
-
 #include <utility>
 
 namespace orb::playground {
 
 spec::Robot robot_named(std::string_view name) {
-  for (const auto& row : spec::robots)
-    if (row.robot != spec::Robot::Sphero && name.starts_with(spec::info(row.ble).prefix))
-      return row.robot;
-  return spec::Robot::Sphero;
+  return spec::robot_called(name).value_or(spec::Robot::Sphero);
 }
 
 /// The link between two messages: holds what arrived with the last one, and what to send with its
