@@ -27,6 +27,14 @@ void set_flags(AssembledMacro& defined, int flags) {
 
 } // namespace
 
+void add_no_number(Findings& findings, const Program& program, Span span) {
+  const auto word = program.text_of(span);
+  const bool hex = word.ends_with('h') || word.ends_with('H');
+  findings.add(rules::WrongUnit, span, texts::NotANumber(word),
+               hex ? texts::WriteHexadecimal(fmt::format("0x{}", word.substr(0, word.size() - 1)))
+                   : texts::UnitsAre());
+}
+
 Names::Names(const Program& program, Findings& findings) : program_(program), findings_(findings) {
   for (const auto& statement : program.statements) {
     if (statement.kind == Statement::Kind::Const)
@@ -75,6 +83,8 @@ void Names::define_constant(const Statement& statement) {
     if (const auto* other = find(program_.text_of(value.span));
         other != nullptr && other->kind == Name::Kind::Constant)
       name.value = other->value;
+  if (value.kind == Value::Kind::Number && !value.is_known)
+    add_no_number(findings_, program_, value.span);
   define(value.name, name);
 }
 

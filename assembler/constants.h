@@ -23,6 +23,9 @@ struct Name {
   Span span;
 };
 
+/// Reports a number that is none, such as `500sm`.
+void add_no_number(Findings& findings, const Program& program, Span span);
+
 /// The names of a file, from its `.const` and `.macro` lines; order does not matter.
 class Names {
 public:

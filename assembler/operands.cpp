@@ -260,12 +260,8 @@ std::optional<std::int32_t> Operands::to_number(const Value& number, Span span,
 void Operands::wrong_unit(const Value& number, Span span, const MacroOperand& operand,
                           std::string_view command) {
   if (!number.is_known) {
-    const auto word = program_.text_of(number.span);
-    const bool hex = word.ends_with('h') || word.ends_with('H');
-    findings_.add(
-        rules::WrongUnit, span, texts::NotANumber(word),
-        hex ? texts::WriteHexadecimal(fmt::format("0x{}", word.substr(0, word.size() - 1)))
-            : texts::UnitsAre());
+    if (span.begin == number.span.begin) // a constant was reported where it is defined
+      add_no_number(findings_, program_, span);
     return;
   }
   findings_.add(rules::WrongUnit, span, texts::OtherUnit(operand.name, command, number.unit->word),

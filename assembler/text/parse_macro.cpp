@@ -113,8 +113,11 @@ ORB_REASON(ParseStop::Expected::Operand, g::next_operand)
 
 ORB_CONTROL
 
-bool is_printable(char c) {
-  return c >= ' ' && c <= '~';
+/// The character at a place; empty for a control character or bytes that are not UTF-8.
+std::string character_at(const char* at, const char* end) {
+  const std::string_view text(at, end);
+  const auto size = utf8_length(text);
+  return size > 1 || (*at >= ' ' && *at <= '~') ? std::string(text.substr(0, size)) : "";
 }
 
 std::string hex_of(char c) {
@@ -123,9 +126,11 @@ std::string hex_of(char c) {
 
 /// Says what was expected and what was found.
 Message found(Message problem, const char* at, const char* end) {
-  return at == end           ? texts::FoundEnd(std::move(problem))
-         : is_printable(*at) ? texts::Found(std::move(problem), *at)
-                             : texts::FoundByte(std::move(problem), hex_of(*at));
+  if (at == end)
+    return texts::FoundEnd(std::move(problem));
+  const auto character = character_at(at, end);
+  return character.empty() ? texts::FoundByte(std::move(problem), hex_of(*at))
+                           : texts::Found(std::move(problem), character);
 }
 
 Diagnostic explain(const Builder& builder, const ParseStop& stop, const char* end) {
@@ -152,9 +157,10 @@ Diagnostic explain(const Builder& builder, const ParseStop& stop, const char* en
     help = texts::NoLabels();
   else if (*stop.at == '\\')
     help = texts::NeedsQuotes();
+  const auto character = character_at(stop.at, end);
   return finding(rules::Syntax, span,
-                 is_printable(*stop.at) ? texts::Unexpected(*stop.at)
-                                        : texts::UnexpectedByte(hex_of(*stop.at)),
+                 character.empty() ? texts::UnexpectedByte(hex_of(*stop.at))
+                                   : texts::Unexpected(character),
                  std::move(help));
 }
 
