@@ -1,6 +1,7 @@
 #include "base/cursor.h"
 
 #include "base/duration.h"
+#include "base/meant.h"
 #include "base/text/text.h"
 #include "base/text/utf8.h"
 
@@ -243,7 +244,8 @@ void Cursor::read_value(const Slot& slot, SlotValue& value) {
 }
 
 void Cursor::wrong(const Slot& slot, Message problem) {
-  fail(*value_, texts::Found(std::move(problem), peek()), example(slot));
+  fail(*value_, texts::Found(std::move(problem), peek()),
+       meant_or(peek(), slot.choices(), example(slot)));
 }
 
 void Cursor::read_number(const Slot& slot, SlotValue& value) {
@@ -424,11 +426,17 @@ std::string Cursor::slashed() {
       pattern += '\\';
     pattern += text_[at_];
   }
-  if (at_ == text_.size())
-    fail_at({open, begin_ + static_cast<std::uint32_t>(at_)}, *syntax_,
-            texts::UnterminatedPattern(), texts::AddAfter('/'));
-  else
+  if (at_ < text_.size()) {
     ++at_;
+    return pattern;
+  }
+  // The last `$` of a pattern is its end.
+  const auto end =
+      begin_ + static_cast<std::uint32_t>(std::min(text_.rfind('$'), text_.size() - 1) + 1);
+  const bool is_first = !failed_ && diagnostics_ != nullptr;
+  fail_at({open, end}, *syntax_, texts::UnterminatedPattern(), texts::AddAfter('/'));
+  if (is_first)
+    diagnostics_->back().fix = Fix{texts::AddAfter('/'), {{{end, end}, "/"}}, Safety::Unsafe};
   return pattern;
 }
 

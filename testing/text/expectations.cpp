@@ -1,6 +1,7 @@
 #include "testing/text/file_reader.h"
 
 #include "base/meant.h"
+#include "repair/tokens.h"
 #include "spec/colours.h"
 
 namespace orb::testing {
@@ -151,10 +152,9 @@ void FileReader::take_color(Cursor& cursor, Expectation& one, const SlotValue& v
   cursor.fail_at(value.span, rules::Value, file_texts::NotAColour(one.text),
                  is_hex ? file_texts::SixDigits()
                         : meant_or(one.text, known, file_texts::ColourIs()));
-  std::replace(one.text.begin(), one.text.end(), 'O', '0'); // they look alike
-  std::replace(one.text.begin(), one.text.end(), 'o', '0');
+  one.text = (is_hex ? "" : "#") + repair::as_digits(one.text);
   if (auto& d = file_.diagnostics.back();
-      d.span.begin == value.span.begin && is_hex && one.text.size() == size &&
+      d.span.begin == value.span.begin && one.text.size() == size &&
       parse_number<std::uint32_t>(std::string_view(one.text).substr(1), 16)) {
     d.help = file_texts::Write(one.text);
     d.fix = Fix{d.help, {{value.span, one.text}}, Safety::Unsafe};
