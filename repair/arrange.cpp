@@ -484,6 +484,9 @@ private:
       if (same != number.thousandths)
         return Settled{written({same, number.measure}), false};
     }
+    constexpr std::int64_t far = 100; // times: several numbers, typed without spaces
+    if (is_byte(operand) && plain && number.thousandths > operand.most * far * one)
+      return std::nullopt;
     if (is_byte(operand) && plain && number.thousandths > operand.most * one)
       return Settled{std::to_string(operand.most), false};
     return Settled{value.text.empty() ? written(number) : value.text};

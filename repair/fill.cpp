@@ -492,8 +492,10 @@ constexpr auto functions = std::to_array<Function>({
     // words
     {"operand", // not a unit, and not a letter that looks like a digit
      [](const Holding& held) {
-       const bool value = held.a.size() == 1 && (held.language() != Language::Basic ||
-                                                 held.a[0].text.size() > 1 || to_lower(held.a[0].text[0]) != held.a[0].text[0]);
+       const bool structured = held.language() == Language::Structured;
+       const bool value = held.a.size() == 1 && (held.a[0].text.size() > 1
+                              ? !structured || has(held.around.names, held.a[0].text)
+                              : structured || to_lower(held.a[0].text[0]) != held.a[0].text[0]);
        return value && milliseconds_of(held.a[0].text) == 0 &&
                       (held.a[0].gap || !has({"O", "o", "l", "I"}, held.a[0].text)) ? Text(held.a[0].text)
                                                                    : std::nullopt;
@@ -571,6 +573,8 @@ Text name_of(std::string_view name, const Holes& holes, const Surroundings& arou
   };
   if (name == "here")
     return known(around.line_number);
+  if (name == "below")
+    return around.number_below.empty() ? "…" : around.number_below;
   if (name == "first")
     return known(around.first_number);
   if (name == "free")
@@ -593,8 +597,14 @@ Text name_of(std::string_view name, const Holes& holes, const Surroundings& arou
     return known(holes.choice);
   if (name == "*")
     return join(holes.rest);
-  if (name == "right" || name == "left")
-    return std::to_string((around.heading + (name == "right" ? 90 : 270)) % 360);
+  if (name == "steering")
+    return known(around.steering);
+  if (name == "right" || name == "left") {
+    const auto turn = name == "right" ? 90 : 270;
+    return around.steering.empty()
+               ? std::to_string((around.heading + turn) % full_circle)
+               : fmt::format("({} + {}) % {}", around.steering, turn, full_circle);
+  }
   if (name == "brake") { // stops a moving ball
     const auto* const comma = around.language == Language::Basic ? "," : ", ";
     return around.pace.empty() ? std::nullopt

@@ -322,7 +322,10 @@ private:
 
 std::vector<std::string> gist_of(const Tokens& line, const Surroundings& around) {
   Gist gist(around);
-  return line.size() > 1 && gist.read(line) ? gist.statements() : std::vector<std::string>();
+  const auto parts = line.empty() ? std::vector<std::string>() : parts_of(line[0].text);
+  const bool to_place = parts.size() > 1 && (parts.back() == "to" || parts.back() == "xy");
+  return line.size() > 1 && !to_place && gist.read(line) ? gist.statements()
+                                                         : std::vector<std::string>();
 }
 
 } // namespace orb::repair

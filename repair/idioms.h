@@ -48,7 +48,9 @@ struct Surroundings {
   std::string first_number;            ///< of the program's first line, if it is another one
   std::string free_letter;             ///< an unused variable; empty: none
   std::string loop;                    ///< the variable of the innermost open `for`
+  std::string number_below;            ///< of the next line; empty if it is the last
   int heading = 0;                     ///< of the last roll above, if it is a number
+  std::string steering;                ///< its variable; empty if it is none
   std::string pace;                    ///< its speed; empty if the ball rests
   std::string label;                   ///< of a structured program, if it has exactly one
   bool in_function = false;            ///< of a structured program

@@ -107,8 +107,9 @@ void single_letters(Line& line) {
   auto& tokens = line.tokens;
   for (std::size_t i = 0; i < tokens.size(); ++i) {
     const auto& text = tokens[i].text;
-    if (tokens[i].is_word() && (tokens[i].gap || i == 0) && text.size() == 2 &&
-        text[0] == text[1] && to_lower(text[0]) != text[0])
+    const bool begins = tokens[i].gap || (i == 0 && !looks_like_digits(text)); // `1OO delay 5`
+    if (tokens[i].is_word() && begins && text.size() == 2 && text[0] == text[1] &&
+        to_lower(text[0]) != text[0])
       tokens[i].text.resize(1);
   }
 }

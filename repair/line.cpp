@@ -86,7 +86,7 @@ Line look_at(const Source& source, const Dialect& dialect, const Scenery& scener
   line.meant = scenery.sub_meant(values_between(line.tokens, 1));
   if (dialect.language == Language::Basic) {
     line.is_target = !scenery.jumps_to(scenery.number(number)).empty();
-    line.number_below = scenery.number_below(number);
+    line.number_above = scenery.number_above(number);
     line.around.names = scenery.set_without(line.tokens);
     line.letters = scenery.letters_without(line.tokens);
     return line;

@@ -43,7 +43,7 @@ struct Line : SplitLine {
   Surroundings around;
   std::vector<std::string_view> names;   ///< words of other lines; in orbBasic: none
   std::vector<std::string_view> letters; ///< in orbBasic: variables that other lines use
-  std::string number_below;
+  std::string number_above;
   std::string sub;         ///< the program's sub that the line calls, correctly or not
   std::string like;        ///< the sub whose name means the same as the first word
   std::string meant;       ///< the only possible sub for a call of an unknown one

@@ -298,6 +298,40 @@ private:
     return ends_an_if() ? join_else(line, finding) : join({line, below(line)}, finding);
   }
 
+  /// Joins a line with the values below it that belong to it: `rgb 255 0`, then `120`.
+  bool join_values(Diagnostic& finding) {
+    const auto line = line_of(finding);
+    const auto next = line + 1;
+    const auto values = next <= source_.line_count() ? tokens_at(next) : Tokens();
+    if (dialect_.language == Language::Basic || dialect_.language == Language::Test ||
+        values.empty() || checks_left() <= 0 ||
+        !std::all_of(values.begin(), values.end(),
+                     [](const Token& token) { return token.is_number() || token.is(","); }))
+      return false;
+    ++checks_;
+    const Source joined({}, lines(1, line) + std::string(source_.line(line)) + " " +
+                                repair::join(values) + "\n" +
+                                lines(next + 1, source_.line_count() + 1));
+    auto findings = dialect_.check(joined.text());
+    repair::offer_lines(joined.text(), dialect_, findings);
+    std::erase_if(findings, [&](const Diagnostic& one) {
+      return !one.fix || joined.position(one.span.begin).line != line;
+    });
+    if (findings.size() != 1)
+      return false;
+    findings[0].fix->safety = Safety::Safe; // as if accepted
+    const Source mended({}, apply_fixes(joined.text(), findings).text);
+    if (errors_in(dialect_.check(mended.text())) + 1 >= errors_in(before_))
+      return false;
+    const auto text = std::string(mended.line(line));
+    finding.help = texts::WriteAndRemoveLine(trim(text), next);
+    finding.fix = Fix{finding.help,
+                      {{source_.line_span(line), text},
+                       {{source_.line_start(next), source_.line_start(next + 1)}, {}}},
+                      Safety::Unsafe};
+    return true;
+  }
+
   Tokens tokens_at(std::uint32_t line) const {
     const auto text = line == 0 ? std::string_view() : source_.line(line);
     return text.size() > longest_line ? Tokens() : split(text, dialect_.language).tokens;
@@ -476,6 +510,10 @@ private:
       mended_.insert(&finding);
       return;
     }
+    if (join_values(finding)) {
+      mended_.insert(&finding);
+      return;
+    }
     if (is_unknown(finding) && mend_definition(source_, dialect_, scenery_, before_, finding)) {
       mended_.insert(&finding);
       return;
@@ -547,7 +585,8 @@ private:
     for (auto finding = findings.rbegin(); finding != findings.rend(); ++finding) {
       const auto& first = before_[static_cast<std::size_t>(*finding - findings_.data())];
       const auto at = line_of(first);
-      if (!is_about_writing(first, source_, dialect_, at))
+      if (!is_about_writing(first, source_, dialect_, at) ||
+          (mended_.contains(*finding) && !texts_.contains(at))) // together with other lines
         continue;
       auto line = read(at);
       auto again = first;

@@ -199,6 +199,13 @@ std::string Scenery::number_below(std::uint32_t line) const {
   return {};
 }
 
+std::string Scenery::number_above(std::uint32_t line) const {
+  while (--line > 0)
+    if (auto digits = number(line); !digits.empty())
+      return digits;
+  return {};
+}
+
 void Scenery::note_jumps(std::uint32_t line, const Tokens& tokens) {
   bool jumps = false; // a number here is a line number
   bool calls = false;
@@ -245,6 +252,7 @@ Surroundings Scenery::around(std::uint32_t line, const SplitLine& parts) const {
                                           [&](const Roll& roll) { return roll.line < line; });
   if (below != rolls_.begin()) {
     all.heading = std::prev(below)->heading;
+    all.steering = std::prev(below)->steering;
     all.pace = std::prev(below)->pace;
   }
   if (language_ == Language::Basic) {
@@ -252,6 +260,7 @@ Surroundings Scenery::around(std::uint32_t line, const SplitLine& parts) const {
     all.free_letter = free.empty() ? "" : free.front();
     const auto first = number_below(0);
     all.first_number = first == all.line_number ? "" : first;
+    all.number_below = number_below(line);
     all.ends_sub = ends_sub(line);
   } else if (language_ == Language::Structured || language_ == Language::Macro) {
     all.closer = closers_[line - 1];
@@ -263,6 +272,7 @@ Surroundings Scenery::around(std::uint32_t line, const SplitLine& parts) const {
 
 void Scenery::note_roll(std::uint32_t line, Tokens tokens) {
   const bool macro = language_ == Language::Macro;
+  const bool steers = tokens.size() > 2 && tokens[1].is_word() && tokens[2].is(",");
   std::erase_if(tokens, [](const Token& token) { return token.is(","); });
   if (tokens.size() < 3 || !tokens[0].is(macro ? "roll" : "goroll"))
     return;
@@ -270,7 +280,8 @@ void Scenery::note_roll(std::uint32_t line, Tokens tokens) {
   const auto& pace = tokens[macro ? 1 : 2];
   const bool rests =
       pace.text == "0" || pace.kind == Token::Kind::Sign || (!macro && tokens.back().is("0"));
-  rolls_.push_back({line, parse_number<int>(heading.text).value_or(0), rests ? "" : pace.text});
+  rolls_.push_back({line, parse_number<int>(heading.text).value_or(0), steers ? heading.text : "",
+                    rests ? "" : pace.text});
 }
 
 std::vector<std::string> Scenery::free_letters() const {

@@ -51,6 +51,9 @@ public:
   std::string number(std::uint32_t line) const;
   std::string number_below(std::uint32_t line) const;
 
+  /// The number of the nearest numbered line above; empty if there is none.
+  std::string number_above(std::uint32_t line) const;
+
   /// The jumps of other orbBasic lines to a number.
   std::vector<Span> jumps_to(std::string_view number) const;
 
@@ -107,8 +110,9 @@ private:
 
   struct Roll {
     std::uint32_t line = 0;
-    int heading = 0;  ///< 0 if it is not a number
-    std::string pace; ///< empty if the ball rests
+    int heading = 0;      ///< 0 if it is not a number
+    std::string steering; ///< the variable that is its heading; empty if it is none
+    std::string pace;     ///< empty if the ball rests
   };
   /// Records the values of a drive command.
   void note_roll(std::uint32_t line, Tokens tokens);

@@ -20,8 +20,10 @@ public:
   ChangeCollector(const Tokens& line, Language language, std::span<const std::string_view> words,
                   std::span<const std::string_view> names)
       : line_(line), language_(language), words_(words), names_(names) {
-    for (const auto& token : line)
+    for (const auto& token : line) {
       open_brackets_ += token.is("[") ? 1 : token.is("]") ? -1 : 0;
+      commas_ += token.is(",") ? 1 : 0;
+    }
   }
 
   std::vector<Candidate> all() {
@@ -65,20 +67,36 @@ private:
     return all;
   }
 
+  /// True if two words have the same letters, and the same first one: `daley` and `delay`.
+  static bool is_anagram(std::string_view word, std::string_view other) {
+    constexpr std::size_t shortest = 4;
+    auto a = lower(word);
+    auto b = lower(other);
+    if (a.size() < shortest || a.size() != b.size() || a[0] != b[0])
+      return false;
+    std::sort(a.begin(), a.end());
+    std::sort(b.begin(), b.end());
+    return a == b;
+  }
+
   void near_words(std::size_t i) {
     const auto& word = line_[i];
-    if (!word.is_word() || word.text.size() < 2 || word.text.size() > 31 || is_known(word.text))
+    if (!word.is_word() || word.text.size() < 2 || word.text.size() > 31 || is_known(word.text) ||
+        looks_like_digits(word.text)) // `3OO`
       return;
     const bool elsewhere = i == 0 && language_ == Language::Basic && // not misspelt: `wend`
                            is_known_word(word.text, Where::Line);
     const auto letters = letters_of(word.text);
+    const auto bare = word.text.substr(0, word.text.find_last_not_of("0123456789") + 1);
     for (const auto& list : {words_, names_})
       for (const auto other : list) {
         if (other.size() < 2 || other.size() > word.text.size() + 2 ||
             word.text.size() > other.size() + 2 ||
-            std::popcount(letters ^ letters_of(other)) > 4) // each edit changes two at most
+            std::popcount(letters ^ letters_of(other)) > 4 || // each edit changes two at most
+            (bare.size() < word.text.size() && equal_words(bare, other))) // `delay9` has a value
           continue;
-        const auto distance = edit_distance(word.text, other);
+        const auto distance =
+            is_anagram(word.text, other) ? std::size_t{1} : edit_distance(word.text, other);
         const auto size = std::max(word.text.size(), other.size());
         if ((elsewhere && distance > 0 && list.data() == words_.data()) || distance > 2 ||
             distance * 3 > size + (size == 2 ? 1 : 0))
@@ -119,8 +137,9 @@ private:
         text.find_first_not_of('0', point + 1) == std::string::npos)
       number_instead(i, text.substr(0, point), 1, 8); // `3.0`, which of times is in seconds
     if (number && i + 1 < line_.size() && line_[i + 1].is_number() && text[0] != '0' &&
-        line_[i + 1].text.find_first_not_of('0') == std::string::npos && !line_[0].is("data"))
-      number_instead(i, text + line_[i + 1].text, 2, 5); // `70 0`: two other numbers are two values
+        (line_[i + 1].text.find_first_not_of('0') == std::string::npos || commas_ > 1) &&
+        !line_[0].is("data"))
+      number_instead(i, text + line_[i + 1].text, 2, 5); // `70 0`, and `0,2 55,U` of a list
     if (number && goes_on)
       wrong_ending(i);
     letters_for_digits(i, number && goes_on);
@@ -141,7 +160,7 @@ private:
     add(changed, 10);
   }
 
-  /// `1ss`, `20mss`, and C suffixes: `1000UL`.
+  /// `1ss`, `20mss`, `500sm`, and C suffixes: `1000UL`.
   void wrong_ending(std::size_t i) {
     const auto& ending = line_[i + 1].text;
     if (ending.size() > 2 && ending[0] == '_' && is_count(std::string_view(ending).substr(1)))
@@ -151,24 +170,25 @@ private:
                      2, 3); // `1e3`
     if (ending.find_first_not_of("uUlLfF") == std::string::npos)
       number_instead(i, line_[i].text, 2, 3);
+    if (language_ == Language::Basic)
+      return;
     auto unit = ending;
+    if (unit == "sm" || unit == "mc") // exchanged
+      return number_instead(i, line_[i].text + std::string(unit.rbegin(), unit.rend()), 2, 6);
     while (unit.size() > 1 && milliseconds_of(unit) == 0)
       unit.pop_back();
-    if (language_ != Language::Basic && milliseconds_of(unit) > 0)
+    if (milliseconds_of(unit) > 0)
       number_instead(i, line_[i].text + unit, 2, 6);
   }
 
-  /// `l00`, `2O0` and `7O0ms`: letters that look like digits; a single `O`.
+  /// `l00`, `2O0`, `7O0ms` and `ls`: letters that look like digits; a single `O`.
   void letters_for_digits(std::size_t i, bool goes_on) {
-    const auto as_digits = [](std::string text) {
-      for (auto& c : text)
-        c = c == 'l' || c == 'I' ? '1' : c == 'O' || c == 'o' ? '0' : c;
-      return text;
-    };
     const auto& text = line_[i].text;
     const bool units = language_ != Language::Basic;
     if (i > 0 && units && (text == "O" || text == "o" || text == "l") && !is_known(text))
       number_instead(i, as_digits(text), 1, 6);
+    if (i > 0 && units && (text == "ls" || text == "Is" || text == "lm") && !is_known(text))
+      number_instead(i, as_digits(text.substr(0, 1)) + text[1], 1, 6);
     if (line_[i].is_number() ? !goes_on : !line_[i].is_word() || text.size() < 2)
       return;
     auto written = text + (goes_on ? line_[i + 1].text : "");
@@ -210,9 +230,10 @@ private:
       auto right = std::string_view(word.text).substr(n);
       if (right.size() > 1 && right[0] == '_')
         right.remove_prefix(1);
-      const bool value =
-          is_count(right) || is_known(right) ||
-          (right.size() == 1 && language_ == Language::Basic && to_lower(right[0]) != right[0]);
+      const bool value = is_count(right) || is_known(right) ||
+                         (right.size() == 1 && is_letter(right[0]) &&
+                          (language_ == Language::Structured ||
+                           (language_ == Language::Basic && to_lower(right[0]) != right[0])));
       const auto meant = value ? statement_called(left, is_count(right)) : std::string_view();
       if (meant.empty())
         continue;
@@ -265,7 +286,9 @@ private:
     auto name = line_[first].text;
     for (auto i = first + 1; i < end && line_[i].is_word(); ++i) {
       name += std::string(between) + line_[i].text;
-      const auto known = spelling_of(name);
+      auto known = spelling_of(name);
+      if (known.empty() && i == first + 1 && !is_known(line_[i].text)) // `go ot 20`
+        known = word_exchanged(name);
       if (known.empty())
         continue;
       auto changed = line_;
@@ -274,6 +297,13 @@ private:
       changed.erase(next, next + static_cast<std::ptrdiff_t>(i - first));
       add(changed, 3);
     }
+  }
+
+  /// The word of the language that has the same letters as a word; empty if there is none.
+  std::string_view word_exchanged(std::string_view word) const {
+    const auto found = std::find_if(words_.begin(), words_.end(),
+                                    [&](std::string_view one) { return is_anagram(word, one); });
+    return found == words_.end() ? std::string_view() : *found;
   }
 
   /// The spelling of a word of the language or of other lines; empty if it is unknown.
@@ -288,8 +318,9 @@ private:
   void left_out(std::size_t i) {
     const auto& token = line_[i];
     const bool twice = i > 0 && !token.is_number() && line_[i - 1].text == token.text;
-    constexpr std::string_view idle = "()[],;:.'#@\\_"; // signs without a computation
-    constexpr std::string_view kinds = "%!&";           // type suffixes of a name
+    const std::string_view idle = // signs without a computation
+        language_ == Language::Basic ? "()[]{},;:.'#@\\_" : "()[],;:.'#@\\_";
+    constexpr std::string_view kinds = "%!&"; // type suffixes of a name
     const bool one = token.kind == Token::Kind::Sign && token.text.size() == 1;
     const bool is_kind = one && i > 0 && line_[i - 1].is_word() && !token.gap &&
                          (kinds.find(token.text[0]) != std::string_view::npos ||
@@ -431,15 +462,15 @@ private:
         !line_.back().text.empty())
       return;
     add(Tokens(line_.begin(), line_.end() - 1), 6);
-    for (std::size_t i = 1; i + 1 < line_.size(); ++i) {
-      Tokens changed(line_.begin(), line_.begin() + static_cast<std::ptrdiff_t>(i));
-      Tokens inner(line_.begin() + static_cast<std::ptrdiff_t>(i), line_.end() - 1);
+    const std::size_t most = language_ == Language::Test ? 2 : 1; // words before a text
+    for (std::size_t i = 1; i + 1 < line_.size() && i <= most; ++i) {
+      auto changed = slice(line_, 0, i);
       Token token;
       token.kind = Token::Kind::Text;
-      token.text = join(inner);
+      token.text = join(slice(line_, i, line_.size() - 1));
       token.gap = true;
       changed.push_back(token);
-      return add(changed, 5);
+      add(changed, 5);
     }
   }
 
@@ -448,6 +479,7 @@ private:
   std::span<const std::string_view> words_;
   std::span<const std::string_view> names_;
   int open_brackets_ = 0; ///< `[` without a `]`
+  int commas_ = 0;
   std::vector<Candidate> found_;
 };
 

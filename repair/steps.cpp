@@ -1,6 +1,7 @@
 #include "repair/trial.h"
 
 #include "base/duration.h"
+#include "base/text/suggest.h"
 #include "base/text/text.h"
 #include "repair/arrange.h"
 #include "repair/fill.h"
@@ -96,8 +97,12 @@ OwnFix own_fix(const Trial& trial) {
     return own;
   const auto& edit = finding.fix->edits.front();
   own.safe = finding.fix->safety == Safety::Safe;
-  own.leaves_out = edit.text.empty() && edit.span.size() > 0 &&
-                   is_letter(line.written[edit.span.begin - line.begin]) &&
+  const auto was = line.written.substr(edit.span.begin - line.begin, edit.span.size());
+  if (const bool shortens = !edit.text.empty() && was.size() == edit.text.size() + 1 &&
+                            was.starts_with(edit.text) && is_letter(was[0]);
+      shortens && line.knows(edit.text))
+    return {}; // it drops a value: `printn`
+  own.leaves_out = edit.text.empty() && edit.span.size() > 0 && is_letter(was[0]) &&
                    own.line->find_first_not_of(" \t;", line.head_size) != std::string::npos;
   return own;
 }
@@ -137,6 +142,44 @@ Next forgotten_command(Trial& trial) {
 Next numbers_alone(Trial& trial) {
   const auto& tokens = trial.line().tokens;
   return enough_if(tokens.size() > 1 && tokens[0].is_number() && tokens[1].is_number());
+}
+
+/// The number of a line in two parts, below a greater one: `1 10 return` and `5O delay 130`.
+Next split_number(Trial& trial) {
+  const auto& line = trial.line();
+  const auto& own = line.around.line_number;
+  if (line.tokens.size() < 2 || own.empty())
+    return Next::GoOn;
+  const auto& next = line.tokens[0];
+  const auto digits = next.is_number() || next.gap ? next.text : as_digits(next.text);
+  const auto written = parse_number<std::uint32_t>(own);
+  const auto joined = parse_number<std::uint32_t>(own + digits);
+  const auto above = parse_number<std::uint32_t>(line.number_above);
+  const auto below = parse_number<std::uint32_t>(line.around.number_below);
+  if (!written || !joined || above.value_or(0) < *written || above.value_or(0) >= *joined ||
+      below.value_or(*joined + 1) <= *joined)
+    return Next::GoOn;
+  const auto indent = line.written.substr(0, line.written.find_first_not_of(" \t"));
+  trial.offer_lines(guess(std::string(indent) + own + digits + " " + join(slice(line.tokens, 1)) +
+                          (line.comment.empty() ? "" : " ") + line.comment));
+  return enough_if(trial.found());
+}
+
+/// `endrepeta`, `ensub` and `sub end`: the end of the innermost block.
+Next misspelt_end(Trial& trial) {
+  const auto& line = trial.line();
+  const auto& tokens = line.tokens;
+  const auto end = tokens_of(line.around.closer, line.language());
+  if (end.size() != 2 || tokens.empty() || tokens.size() > 2 || !tokens.back().is_word())
+    return Next::GoOn;
+  const bool exchanged = tokens.size() == 2 && tokens[1].is("end") &&
+                         holds("if while loop repeat sub function select", tokens[0].text);
+  constexpr std::size_t most = 2; // wrong letters
+  const auto distance = edit_distance(tokens[0].text + (tokens.size() == 2 ? tokens[1].text : ""),
+                                      end[0].text + end[1].text);
+  if (exchanged || (distance <= most && !line.is_elsewhere(tokens[0].text)))
+    trial.offer(guess(exchanged ? "end " + tokens[0].text : line.around.closer));
+  return enough_if(trial.found());
 }
 
 /// `end` in a macro for the end of its block.
@@ -271,10 +314,17 @@ Next missing_value(Trial& trial) {
   return enough_if(calls(trial.line()) && trial.finding().rule->trouble == Trouble::ArgumentCount);
 }
 
-/// Rows with several lines say more than any single line.
+/// Rows with several lines say more than any single line, except for a number with a space in it:
+/// `RGB 0,2 55,U`.
 Next several_lines(Trial& trial) {
   const auto own = own_fix(trial);
-  if (calls(trial.line()) || (own.line && !own.leaves_out && own.safe))
+  const auto& tokens = trial.line().tokens;
+  const auto split =
+      std::adjacent_find(tokens.begin(), tokens.end(), [](const Token& a, const Token& b) {
+        return a.is_number() && b.is_number();
+      });
+  const bool in_list = split != tokens.end() && trial.line().count_of(",") > 1;
+  if (calls(trial.line()) || (own.line && !own.leaves_out && own.safe) || in_list)
     return Next::GoOn;
   std::unordered_set<std::string> seen;
   trial.explore_rows(join(trial.line().tokens), {3, few_states}, seen, [&](const Candidate& one) {
@@ -477,6 +527,23 @@ Next by_initials(Trial& trial) {
   return Next::GoOn;
 }
 
+/// `print C primes`: unknown words at the end are a text.
+Next text_unquoted(Trial& trial) {
+  const auto& line = trial.line();
+  const auto& all = line.tokens;
+  auto begin = all.size();
+  while (begin > 0 && line.is_unknown(all[begin - 1]))
+    --begin;
+  if (begin < 2 || begin == all.size() || !all[0].is("print"))
+    return Next::GoOn;
+  auto text = word(" " + join(slice(all, begin)));
+  text.kind = Token::Kind::Text;
+  auto whole = slice(all, 0, begin);
+  whole.push_back(text);
+  trial.offer(guess(join(whole)));
+  return enough_if(trial.found());
+}
+
 /// A statement between unknown words: `well, goto 20 again`.
 Next among_unknown(Trial& trial) {
   constexpr std::size_t most = 3; // such words on either side
@@ -529,7 +596,8 @@ Next without_unit(Trial& trial) {
                        all[i - 1].is("0"); // for other numbers the unit would be ambiguous
     if (all[i].is("%") && all[i - 1].is_number() && !all[i - 1].is("0"))
       continue; // the noun is unknown
-    if (!operand(i - 1) || !(time ? plain : unit || line.is_unknown(all[i])))
+    if (!operand(i - 1) || !(time ? plain : unit || line.is_unknown(all[i])) ||
+        looks_like_digits(all[i].text))
       continue;
     auto less = all;
     less.erase(less.begin() + static_cast<std::ptrdiff_t>(i));
@@ -544,7 +612,8 @@ Next without_units(Trial& trial) {
   const auto& line = trial.line();
   const auto& all = line.tokens;
   const auto is_unit = [&](const Token& token) { // `20pts`, `N < 1 sticks or N > 3 sticks`
-    return (line.count_of(token.text) > 1 || !token.gap) && line.is_unknown(token);
+    return (line.count_of(token.text) > 1 || !token.gap) && line.is_unknown(token) &&
+           !looks_like_digits(token.text);
   };
   auto bare = all;
   for (std::size_t i = 1; i < bare.size(); ++i) {
@@ -656,8 +725,10 @@ using in::test;
 // clang-format off
 constexpr auto steps = std::to_array<Step>({
     {"forgotten command", macro,      When::NothingFound, forgotten_command},
+    {"line number",       basic,      When::NothingFound, split_number},
     {"numbers alone",     all,        When::NothingFound, numbers_alone},
     {"block",             macro,      When::NothingFound, bare_end},
+    {"block",             structured, When::NothingFound, misspelt_end},
     {"title",             test,       When::NothingFound, test_title},
     {"one by one",        programs,   When::NothingFound, one_by_one},
     {"order of values",   all,        When::NothingFound, other_order},
@@ -679,6 +750,7 @@ constexpr auto steps = std::to_array<Step>({
     {"sentence",          programs,   When::NothingFound, by_gist},
     {"initials",          basic,      When::NothingFound, by_initials},
     {"changes",           all,        When::NothingFound, by_all_changes},
+    {"quotes",            programs,   When::NothingFound, text_unquoted},
     {"words too many",    all,        When::NothingFound, among_unknown},
     {"unit too many",     programs | test, When::NothingFound, without_unit},
     {"unit too many",     programs | test, When::NothingFound, without_units},

@@ -19,9 +19,9 @@ struct Written {
 /// Multi-byte signs and their keyboard equivalents.
 constexpr auto drawn = std::to_array<Written>(
     {{"×", "*"},  {"÷", "/"},  {"≤", "<="}, {"≥", ">="}, {"≠", "!="}, {"–", "-"},   {"−", "-"},
-     {"·", "*"},  {"←", "="},  {"→", "->"}, {"…", ".."}, {"±", "+-"}, {"°", "deg"}, {"，", ","},
-     {"、", ","}, {"．", "."}, {"：", ":"}, {"；", ";"}, {"（", "("}, {"）", ")"},  {"＝", "="},
-     {"＜", "<"}, {"＞", ">"}, {"＋", "+"}, {"－", "-"}, {"＊", "*"}, {"／", "/"}});
+     {"·", "*"},  {"←", "="},  {"→", "->"}, {"…", ".."}, {"±", "+-"}, {"°", "deg"}, {"º", "deg"},
+     {"，", ","}, {"、", ","}, {"．", "."}, {"：", ":"}, {"；", ";"}, {"（", "("},  {"）", ")"},
+     {"＝", "="}, {"＜", "<"}, {"＞", ">"}, {"＋", "+"}, {"－", "-"}, {"＊", "*"},  {"／", "/"}});
 constexpr auto quotes = std::to_array<std::string_view>(
     {"“", "”", "„", "＂", "‟", "«", "»", "‘", "’", "‚", "''", "``", "´", "`", "'", "\""});
 constexpr auto long_signs = std::to_array<std::string_view>(
@@ -391,6 +391,16 @@ std::size_t close_of(const Tokens& tokens, std::size_t open) {
       return at;
   }
   return tokens.size();
+}
+
+bool looks_like_digits(std::string_view word) {
+  return word.find_first_not_of("oOlI") == std::string_view::npos;
+}
+
+std::string as_digits(std::string text) {
+  for (auto& c : text)
+    c = c == 'l' || c == 'I' ? '1' : c == 'O' || c == 'o' ? '0' : c;
+  return text;
 }
 
 Token word(std::string_view text) {

@@ -67,6 +67,12 @@ Tokens slice(const Tokens& tokens, std::size_t begin, std::size_t end = SIZE_MAX
 /// The closing bracket for the token at `open`; the number of tokens if there is none.
 std::size_t close_of(const Tokens& tokens, std::size_t open);
 
+/// True if a word has only letters that look like digits: `OO`.
+bool looks_like_digits(std::string_view word);
+
+/// The digits that a text looks like: `5O` is `50`. Other signs stay.
+std::string as_digits(std::string text);
+
 /// A word preceded by a space.
 Token word(std::string_view text);
 

@@ -180,7 +180,8 @@ std::string Trial::several(std::string_view statements) const {
   const auto lines =
       static_cast<std::uint32_t>(std::count(statements.begin(), statements.end(), '\n') + 1);
   const auto number = parse_number<std::uint32_t>(line_.around.line_number).value_or(0);
-  const auto below = parse_number<std::uint32_t>(line_.number_below).value_or(greatest_line_number);
+  const auto below =
+      parse_number<std::uint32_t>(line_.around.number_below).value_or(greatest_line_number);
   const bool numbered = line_.language() == Language::Basic;
   const auto step = below > number ? std::min((below - number) / lines, usual_step) : 0;
   if (numbered && step == 0)

@@ -138,6 +138,7 @@ void other_forms(Line& line) {
         (i + 1 < tokens.size() && (tokens[i + 1].is("=") || tokens[i + 1].is("."))) ||
         (i > 0 && tokens[i - 1].is("."));
     if (!tokens[i].is_word() || named || !line.is_foreign(tokens[i].text) ||
+        std::any_of(tokens[i].text.begin(), tokens[i].text.end(), is_digit) || // `delay1s`
         milliseconds_of(tokens[i].text) > 0 || find_colour(tokens[i]) ||
         is_misspelt(line, tokens[i].text) || is_known_word(tokens[i].text, Where::Line) ||
         is_known_word(tokens[i].text, Where::Inside))

@@ -2,6 +2,8 @@
 
 #include "compiler/lint/values_pass.h"
 
+#include "repair/texts.h"
+
 namespace orb::compiler {
 
 void ValuesPass::collect_letters() {
@@ -59,6 +61,10 @@ void ValuesPass::check_letters() {
     } else if (used && !set) {
       auto& d = findings_.add(rules::NeverAssigned, letter.first_used->span,
                               texts::UsedButNeverSet(spec::letter_name(i)));
+      const auto end = d.span.end;
+      if (spec::letter_name(i) == 'F' && program_.text.substr(end, 1) == "\"") // `f"A is {A}"`
+        d.message =
+            repair::texts::IsWhose("f\"", "Python", repair::texts::PrintsWith("print \"A is \" A"));
       if (const auto meant = meant_by(i); !meant.empty())
         d.fix = single_fix(texts::WriteValue(meant), d.span, meant, Safety::Unsafe);
     }
@@ -85,7 +91,8 @@ std::string ValuesPass::meant_by(std::uint32_t letter) const {
                  ? std::string(program_.text_of(program_.items_of(*loop).front().span))
                  : "";
     const auto variable = program_.items_of(statement).front().value;
-    loop = statement.kind == spec::Statement::For && letters_[variable].first_used == nullptr
+    loop = statement.kind == spec::Statement::For && statement.span.end <= use.begin &&
+                   letters_[variable].first_used == nullptr
                ? &statement
                : nullptr;
   }

@@ -226,8 +226,8 @@ void TextPass::add_missing_blank(std::uint32_t at, Message message) {
   auto& d = findings_.add(rules::MissingBlank, {at, at}, std::move(message));
   d.fix = single_fix(texts::InsertSpace(), {at, at}, " ");
   const auto text = std::string_view(program_.text).substr(at);
-  const bool digit = !text.empty() && holds("O o l I", text.substr(0, 1)) &&
-                     (text.size() == 1 || is_blank(text[1])) && at > 0 &&
+  const auto alike = std::min(text.find_first_not_of("OolI"), text.size());
+  const bool digit = alike > 0 && (alike == text.size() || is_blank(text[alike])) && at > 0 &&
                      is_digit(program_.text[at - 1]);
   if (digit)
     d.fix->safety = Safety::Unsafe; // `12O goto 10` is line 120

@@ -65,6 +65,19 @@ Diagnostic missing_value(const Program& program, Span found) {
   return finding(rules::MalformedLine, {at, at + 1}, texts::MissingValueAfter(sign));
 }
 
+/// True if a line of the text begins a sub or a function of this name.
+bool is_sub(std::string_view text, std::string_view name) {
+  for (const std::string_view word : {"sub ", "function "})
+    for (auto at = text.find(word); at != std::string_view::npos; at = text.find(word, at + 1)) {
+      const auto end = at + word.size() + name.size();
+      if (begins_line(text, static_cast<std::uint32_t>(at)) && end <= text.size() &&
+          equal_words(text.substr(at + word.size(), name.size()), name) &&
+          (end == text.size() || !is_name_char(text[end])))
+        return true;
+    }
+  return false;
+}
+
 /// Values after a name without parentheses: a misspelt statement, or a call.
 Diagnostic naked_arguments(const Program& program, Span found) {
   const auto called = word_before(program.text, found.begin);
@@ -83,7 +96,7 @@ Diagnostic naked_arguments(const Program& program, Span found) {
   std::vector<std::string_view> statements;
   for (const auto& row : spec::statements)
     statements.push_back(row.word);
-  if (const auto meant = closest(word, statements))
+  if (const auto meant = closest(word, statements); meant && !is_sub(program.text, word))
     return finding(rules::UnknownName, called, texts::NeitherStatementNorSub(word),
                    texts::DidYouMean(*meant));
   return malformed(program, found, texts::CallInParentheses());
