@@ -190,17 +190,13 @@ Text dice(const Tokens& from, const Tokens& to, Language language) {
   return *a > 1 ? fmt::format("{} + {}", call, *a - 1) : fmt::format("{} - {}", call, 1 - *a);
 }
 
-/// A decimal factor as a fraction, or its inverse.
-enum class Factor : std::uint8_t { Itself, Inverse };
-Text fraction(const Tokens& tokens, Factor factor) {
-  const bool inverse = factor == Factor::Inverse;
+/// A decimal factor as a fraction.
+Text fraction(const Tokens& tokens) {
   const auto value = tokens.size() == 1 ? thousandths(tokens[0]) : std::nullopt;
   if (!value || *value == 0 || *value % second_ms == 0)
     return std::nullopt;
   const auto divisor = std::gcd(*value, second_ms);
-  const auto above = (inverse ? second_ms : *value) / divisor;
-  const auto below = (inverse ? *value : second_ms) / divisor;
-  return fmt::format("{} / {}", above, below);
+  return fmt::format("{} / {}", *value / divisor, second_ms / divisor);
 }
 
 /// Three values, or a colour as its three values.
@@ -305,31 +301,11 @@ Text only(bool applies, std::string text) {
   return applies ? Text(std::move(text)) : std::nullopt;
 }
 
-/// Half of the sum of a range's ends, its middle, or of their difference; its length is even.
-template <typename Combine>
-Text half_of(const Holding& held, Combine combine) {
-  const auto from = whole(held.a);
-  const auto to = whole(held.b);
-  if (!from || !to || *from >= *to || (*to - *from) % 2 != 0)
-    return std::nullopt;
-  return std::to_string(combine(*to, *from) / 2);
-}
-
 Text bearing(const Tokens& a) {
   for (const auto* heading : {"0", "90", "180", "270"})
     if (a.size() == 1 && is_called(heading, a[0].text))
       return heading;
   return std::nullopt;
-}
-
-/// Minutes and seconds, such as `1:30`.
-Text clock_face(const Holding& held) {
-  const auto minutes = whole(held.a);
-  const auto seconds = whole(held.b);
-  constexpr std::int64_t minute = 60; // seconds
-  return minutes && seconds && *seconds < minute
-             ? Text(fmt::format("{}s", *minutes * minute + *seconds))
-             : std::nullopt;
 }
 
 /// Joins `60 000`.
@@ -429,7 +405,6 @@ constexpr auto functions = std::to_array<Function>({
        return value < 1000 ? std::nullopt : Text(std::to_string(value / 1000)); // microseconds
      }},
     {"clock", [](const Holding& held) { return clock(held.a); }},
-    {"clockface", clock_face},
 
     // other quantities
     {"percent",
@@ -458,11 +433,7 @@ constexpr auto functions = std::to_array<Function>({
                   ? Text(std::to_string(full_circle - *value))
                   : std::nullopt;
      }},
-    {"middle", [](const Holding& held) { return half_of(held, std::plus()); }},
-    {"using", [](const Holding& held) { return print_using(held.a, held.b); }},
-    {"half", [](const Holding& held) { return half_of(held, std::minus()); }},
-    {"ratio", [](const Holding& held) { return fraction(held.a, Factor::Itself); }},
-    {"inverse", [](const Holding& held) { return fraction(held.a, Factor::Inverse); }},
+    {"ratio", [](const Holding& held) { return fraction(held.a); }},
     {"thousands", thousands},
     {"zero", [](const Holding& held) { return held.a.empty() ? Text("0") : Text(join(held.a)); }},
 

@@ -162,14 +162,10 @@ bool keeps_texts(const Line& line, std::string_view lines) {
     std::erase(plain, '"');
     return plain;
   };
-  const bool says_using =
-      std::any_of(line.tokens.begin(), line.tokens.end(),
-                  [](const Token& token) { return equal_words(token.text, "using"); });
   return lines.empty() || unquoted(lines) == unquoted(line.written) ||
          std::all_of(line.tokens.begin(), line.tokens.end(), [&](const Token& token) {
            const bool filled =
                token.text.find_first_of("{%\\") != std::string::npos ||
-               (token.text.find('#') != std::string::npos && says_using) ||
                (line.language() == Language::Macro && // quoted numbers
                 token.text.find_first_not_of("0123456789 ,.;") == std::string::npos);
            return !token.is_text() || !token.closed || filled || find_colour(token) ||

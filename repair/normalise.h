@@ -33,11 +33,9 @@ bool is_misspelt(const Line& line, std::string_view word);
 void comma_for_point(Line& line);
 void join_words(Line& line);
 void missed_signs(Line& line);
-void part_glued(Line& line);
 void single_letters(Line& line);
 
 // signs.cpp
-void truths(Line& line);
 void decimal_numbers(Line& line);
 void drop_sigils(Line& line);
 void close_block(Line& line);
@@ -52,9 +50,7 @@ void words_with_one_quote(Line& line);
 
 // wordings.cpp
 void documented_spelling(Line& line);
-void drop_objects(Line& line);
 void drop_prefixes(Line& line);
-void drop_pronoun(Line& line);
 void drop_small_words(Line& line);
 void other_forms(Line& line);
 void own_words(Line& line);

@@ -143,37 +143,6 @@ std::optional<std::string> print_items(const Tokens& tokens) {
   return out.empty() ? std::nullopt : std::optional(out);
 }
 
-std::optional<std::string> print_using(const Tokens& format, const Tokens& values) {
-  std::vector<Tokens> items(1);
-  int depth = 0;
-  for (const auto& token : values) {
-    depth += token.is("(") || token.is("[") ? 1 : token.is(")") || token.is("]") ? -1 : 0;
-    if (depth == 0 && (token.is(";") || token.is(",")))
-      items.emplace_back();
-    else
-      items.back().push_back(token);
-  }
-  if (items.back().empty())
-    items.pop_back();
-  std::string all;
-  const auto add = [&](const std::string& part) { all += (all.empty() ? "" : " ") + part; };
-  std::string_view rest = format[0].text;
-  for (const auto& item : items) {
-    const auto from = rest.find('#');
-    if (from == std::string_view::npos || item.empty())
-      return std::nullopt; // the number of fields differs
-    if (from > 0)
-      add(fmt::format("\"{}\"", rest.substr(0, from)));
-    add(join(item));
-    rest.remove_prefix(std::min(rest.find_first_not_of("#.", from), rest.size()));
-  }
-  if (rest.find('#') != std::string_view::npos || all.empty())
-    return std::nullopt;
-  if (!rest.empty())
-    add(fmt::format("\"{}\"", rest));
-  return all;
-}
-
 std::optional<std::string> quoted(const Tokens& tokens) {
   std::string text;
   constexpr std::string_view plain = ".!?:,()-/&";

@@ -9,9 +9,6 @@
 
 namespace orb::repair {
 
-/// Puts the value in place of the signs of `"### is missing"`.
-std::optional<std::string> print_using(const Tokens& format, const Tokens& values);
-
 /// Converts print arguments of other languages to a list for `print`: adjacent texts, without `+`,
 /// `str()` and formats.
 std::optional<std::string> print_items(const Tokens& tokens);

@@ -184,7 +184,6 @@ public:
     if (dialect_.language == Language::Test)
       take_back({first.rbegin(), first.rend()}); // a list below `prints`, from its first text on
     if (dialect_.language == Language::Structured) {
-      take_back(first);
       offer_again(first);
       close_mended();
     }

@@ -177,17 +177,4 @@ void decimal_numbers(Line& line) {
         token.text = std::to_string(*value);
 }
 
-/// `warned = "False"`: true is 1.
-void truths(Line& line) {
-  auto& tokens = line.tokens;
-  if (tokens.size() == 2 && holds("while until if", tokens[0].text) && tokens[1].is_text() &&
-      holds("true false", tokens[1].text))
-    tokens[1].kind = Token::Kind::Word; // `While "True"`
-  if (tokens.size() != 3 || !tokens[1].is("=") || !tokens[2].is_text() ||
-      !holds("true false", tokens[2].text))
-    return;
-  tokens[2].kind = Token::Kind::Number;
-  tokens[2].text = equal_words(tokens[2].text, "true") ? "1" : "0";
-}
-
 } // namespace orb::repair

@@ -138,12 +138,6 @@ Next forgotten_command(Trial& trial) {
   return enough_if(trial.found());
 }
 
-/// Two bare numbers: their meaning is unknown.
-Next numbers_alone(Trial& trial) {
-  const auto& tokens = trial.line().tokens;
-  return enough_if(tokens.size() > 1 && tokens[0].is_number() && tokens[1].is_number());
-}
-
 /// The number of a line in two parts, below a greater one: `1 10 return` and `5O delay 130`.
 Next split_number(Trial& trial) {
   const auto& line = trial.line();
@@ -259,16 +253,6 @@ Next one_bracket(Trial& trial) {
   return Next::GoOn;
 }
 
-/// `avanti i` in a loop with the counter `i`.
-Next foreign_next(Trial& trial) {
-  const auto& line = trial.line();
-  const auto& tokens = line.tokens;
-  if (tokens.size() == 2 && tokens[1].text == line.around.loop && tokens[0].is_word() &&
-      line.is_foreign(tokens[0].text) && !is_misspelt(line, tokens[0].text))
-    trial.offer(guess("next " + line.around.loop));
-  return Next::GoOn;
-}
-
 /// `drive 0, 1s`, `call drive(0, 1s)` and `wait for shake` if the program has a sub of that name,
 /// which takes precedence over idioms.
 Next own_call(Trial& trial) {
@@ -314,25 +298,6 @@ Next missing_value(Trial& trial) {
   return enough_if(calls(trial.line()) && trial.finding().rule->trouble == Trouble::ArgumentCount);
 }
 
-/// Rows with several lines say more than any single line, except for a number with a space in it:
-/// `RGB 0,2 55,U`.
-Next several_lines(Trial& trial) {
-  const auto own = own_fix(trial);
-  const auto& tokens = trial.line().tokens;
-  const auto split =
-      std::adjacent_find(tokens.begin(), tokens.end(), [](const Token& a, const Token& b) {
-        return a.is_number() && b.is_number();
-      });
-  const bool in_list = split != tokens.end() && trial.line().count_of(",") > 1;
-  if (calls(trial.line()) || (own.line && !own.leaves_out && own.safe) || in_list)
-    return Next::GoOn;
-  std::unordered_set<std::string> seen;
-  trial.explore_rows(join(trial.line().tokens), {3, few_states}, seen, [&](const Candidate& one) {
-    return one.text.find('\n') != std::string::npos && trial.offer(one);
-  });
-  return Next::GoOn;
-}
-
 /// The finding's own fix.
 Next by_fix(Trial& trial) {
   const auto& line = trial.line();
@@ -352,14 +317,6 @@ Next by_fix_of_name(Trial& trial) {
                  is_unknown(trial.finding())
              ? by_fix(trial)
              : Next::GoOn;
-}
-
-/// `#end while`: not a comment.
-Next remark(Trial& trial) {
-  const auto& line = trial.line();
-  if (line.tokens.empty() && !line.comment.empty())
-    trial.offer({std::string(trim(std::string_view(line.comment).substr(1)))});
-  return Next::GoOn;
 }
 
 /// The normalised line.
@@ -471,11 +428,6 @@ Next by_all_changes(Trial& trial) {
   return Next::GoOn;
 }
 
-/// A guess from the topics, if the first word is otherwise unknown.
-Next by_new_gist(Trial& trial) {
-  return is_known_first(trial.line()) ? Next::GoOn : by_gist(trial);
-}
-
 Next by_rows(Trial& trial) {
   const bool test = trial.line().language() == Language::Test;
   apply_rows(trial, join(trial.line().tokens), {deepest, test ? few_states : most_states});
@@ -497,33 +449,6 @@ Next words_left_out(Trial& trial) {
   if (tokens.size() == 2 && tokens[0].is_word() && names(tokens[0]) &&
       (tokens[1].is_number() || tokens[1].is_word()))
     trial.offer(guess(join({tokens[0]}) + " = " + tokens[1].text));
-  return Next::GoOn;
-}
-
-/// `Down = 255 - Up` in a program with `D` and `U`; `13o delay 500` is `130 delay 500`.
-Next by_initials(Trial& trial) {
-  const auto& line = trial.line();
-  auto tokens = line.tokens;
-  bool any = false;
-  for (std::size_t i = 0; i < tokens.size(); ++i) {
-    auto& token = tokens[i];
-    if (!token.is_word() || token.text.size() < 2 || !line.is_foreign(token.text))
-      continue;
-    const bool after_value =
-        i > 0 &&
-        (tokens[i - 1].is_number() || tokens[i - 1].is_text() || tokens[i - 1].text.size() == 1) &&
-        tokens[i - 1].kind != Token::Kind::Sign;
-    if (after_value || is_called("", token.text))
-      return Next::GoOn; // `print 3 throws`: an extra word, not a value
-    const std::string initial(1, to_upper(token.text[0]));
-    if (!is_letter(initial[0]) ||
-        std::find(line.letters.begin(), line.letters.end(), initial) == line.letters.end())
-      return Next::GoOn;
-    token.text = initial;
-    any = true;
-  }
-  if (any)
-    trial.offer(guess(join(tokens)));
   return Next::GoOn;
 }
 
@@ -631,22 +556,6 @@ Next without_units(Trial& trial) {
   return Next::GoOn;
 }
 
-/// Removes names of values: `leg(towards=90)`.
-Next without_names(Trial& trial) {
-  const auto& all = trial.line().tokens;
-  auto unnamed = all;
-  for (std::size_t i = 2; i + 1 < unnamed.size(); ++i)
-    if (unnamed[i].is("=") && unnamed[i - 1].is_word() &&
-        (unnamed[i - 2].is("(") || unnamed[i - 2].is(","))) {
-      unnamed.erase(unnamed.begin() + static_cast<std::ptrdiff_t>(i) - 1,
-                    unnamed.begin() + static_cast<std::ptrdiff_t>(i) + 1);
-      i -= 2;
-    }
-  if (unnamed.size() < all.size() && all.size() > 2 && all[1].is("("))
-    trial.offer(guess(join(unnamed)));
-  return Next::GoOn;
-}
-
 /// Removes a quantity after a statement that takes none: `flicker 12 times`, `expect reach goal
 /// 1m`.
 Next without_quantity(Trial& trial) {
@@ -726,7 +635,6 @@ using in::test;
 constexpr auto steps = std::to_array<Step>({
     {"forgotten command", macro,      When::NothingFound, forgotten_command},
     {"line number",       basic,      When::NothingFound, split_number},
-    {"numbers alone",     all,        When::NothingFound, numbers_alone},
     {"block",             macro,      When::NothingFound, bare_end},
     {"block",             structured, When::NothingFound, misspelt_end},
     {"title",             test,       When::NothingFound, test_title},
@@ -734,27 +642,21 @@ constexpr auto steps = std::to_array<Step>({
     {"order of values",   all,        When::NothingFound, other_order},
     {"quotes",            programs,   When::NothingFound, one_quote},
     {"bracket",           all,        When::Always,       one_bracket},
-    {"block",             structured, When::Always,       foreign_next},
     {"own sub",           all,        When::Always,       own_call},
     {"own sub",           structured, When::NothingFound, own_sub},
     {"own sub",           all,        When::NothingFound, missing_value},
-    {"several lines",     all,        When::NothingFound, several_lines},
     {"fix",               all,        When::NothingFound, by_fix_of_name},
-    {"comment",           all,        When::Always,       remark},
     {"notation",          all,        When::NothingFound, as_read},
-    {"sentence",          programs,   When::NothingFound, by_new_gist},
     {"letters",           all,        When::NothingFound, by_letters},
     {"row",               all,        When::Unsettled,    by_rows},
     {"fix",               all,        When::Unsettled,    by_fix},
     {"word left out",     all,        When::NothingFound, words_left_out},
     {"sentence",          programs,   When::NothingFound, by_gist},
-    {"initials",          basic,      When::NothingFound, by_initials},
     {"changes",           all,        When::NothingFound, by_all_changes},
     {"quotes",            programs,   When::NothingFound, text_unquoted},
     {"words too many",    all,        When::NothingFound, among_unknown},
     {"unit too many",     programs | test, When::NothingFound, without_unit},
     {"unit too many",     programs | test, When::NothingFound, without_units},
-    {"names of values",   all,        When::NothingFound, without_names},
     {"quantity too many", all,        When::NothingFound, without_quantity},
     {"milliseconds",      all,        When::Always,       in_milliseconds},
 });

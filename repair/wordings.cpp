@@ -95,33 +95,6 @@ void drop_prefixes(Line& line) {
   }
 }
 
-/// `Serial.print`, `Program.End()`, and `Ball.Toss(820)` in test files: these are not file names.
-void drop_objects(Line& line) {
-  auto& tokens = line.tokens;
-  if (tokens.empty() || tokens[0].is("program") || tokens[0].is("with") || tokens[0].is("course"))
-    return;
-  for (std::size_t i = 0; i + 2 < tokens.size(); ++i) // `garage.inside`
-    if (tokens[i].is_word() && tokens[i + 1].is(".") && !tokens[i + 1].gap &&
-        tokens[i + 2].is("inside") && !holds("robot ball sphero bot program", tokens[i].text)) {
-      std::swap(tokens[i].text, tokens[i + 2].text);
-      tokens[i + 2].gap = true;
-      tokens.erase(tokens.begin() + static_cast<std::ptrdiff_t>(i) + 1);
-    }
-  for (std::size_t i = 0; i + 2 < tokens.size(); ++i)
-    if (tokens[i].is_word() && tokens[i + 1].is(".") && !tokens[i + 1].gap &&
-        tokens[i + 2].is_word() && !tokens[i + 2].is("macro") && !tokens[i + 2].is("test") &&
-        !tokens[i].is("not") && (i > 0 || !line.knows(tokens[i].text)) &&
-        (line.knows(tokens[i + 2].text) || is_called("print", tokens[i + 2].text) ||
-         is_called("input", tokens[i + 2].text)))
-      take_out(tokens, i, 2);
-  for (std::size_t i = 1; i + 1 < tokens.size(); ++i)
-    if (tokens[i].is("(") && tokens[i + 1].is(")") && tokens[i - 1].is_word())
-      tokens.erase(tokens.begin() + static_cast<std::ptrdiff_t>(i),
-                   tokens.begin() + static_cast<std::ptrdiff_t>(i + 2));
-  if (tokens.back().is("?"))
-    tokens.pop_back();
-}
-
 /// True if a word is one letter away from a word of the language.
 bool is_misspelt(const Line& line, std::string_view word) {
   const auto near = closest(word, line.dialect->words);
@@ -146,14 +119,6 @@ void other_forms(Line& line) {
     if (const auto form = known_form_of(tokens[i].text, line.language()); !form.empty())
       tokens[i].text = form;
   }
-}
-
-/// `if it is lit then`, where `lit` is a variable.
-void drop_pronoun(Line& line) {
-  auto& tokens = line.tokens;
-  if (tokens.size() > 3 && holds("if while until", tokens[0].text) && tokens[1].is("it") &&
-      tokens[2].is("is") && line.has_name(tokens[3].text) && !line.scenery->is_sub(tokens[3].text))
-    take_out(tokens, 1, 2);
 }
 
 /// Applies the documented spelling where case counts on the robot.

@@ -149,13 +149,6 @@ void part_id(Tokens& line) {
   }
 }
 
-void drop_proc(Tokens& line) {
-  constexpr std::string_view proc = "PROC";
-  if (line.size() > 1 && line[0].is(".macro") && line[1].text.starts_with(proc) &&
-      line[1].text != proc)
-    line[1].text.erase(0, proc.size());
-}
-
 constexpr auto all = std::to_array<Rewrite>({
     {"reads words in quotes, but no comment", unquote, R"("delay": "200")", "delay: 200"},
     {"drops brackets, dashes and what ends a statement", drop_brackets, "- fade: [50, 0, 8, 140],",
@@ -164,13 +157,11 @@ constexpr auto all = std::to_array<Rewrite>({
      "rgb(255, 0, 0)"},
     {"takes values out of parentheses", drop_parentheses, "fade((60, 0, 40), 2500)",
      "fade 60, 0, 40, 2500"},
-    {"reads hexadecimal numbers", read_hexadecimal, "rgb $FF 0C8h 0x80h", "rgb 255 200 128"},
-    {"reads hexadecimal colours", read_hexadecimal, "rgb &H00FFFF", "rgb #00ffff"},
+    {"reads hexadecimal numbers and colours", read_hexadecimal, "rgb $FF 0C8h &H00FFFF",
+     "rgb 255 200 #00ffff"},
     {"reads a decimal comma", join_decimals, "delay 1,5s", "delay 1.5s"},
     {"begins a macro with `.macro`", begin_macro, "square: macro id=50", ".macro square: id=50"},
     {"parts `id` and its number", part_id, ".macro wink id40", ".macro wink id 40"},
-    {"drops what BBC Basic begins names of procedures with", drop_proc, ".macro PROCpolice id=52",
-     ".macro police id=52"},
 });
 
 } // namespace
