@@ -297,32 +297,44 @@ private:
     return ends_an_if() ? join_else(line, finding) : join({line, below(line)}, finding);
   }
 
-  /// Joins a line with the values below it that belong to it: `rgb 255 0`, then `120`.
+  /// Joins a statement with the values below it that belong to it: `rgb 255 0`, then `120`.
   bool join_values(Diagnostic& finding) {
     const auto line = line_of(finding);
     const auto next = line + 1;
-    const auto values = next <= source_.line_count() ? tokens_at(next) : Tokens();
+    const auto is_values = [&](std::uint32_t at) {
+      const auto tokens = at <= source_.line_count() ? tokens_at(at) : Tokens();
+      return !tokens.empty() && std::all_of(tokens.begin(), tokens.end(), [](const Token& token) {
+        return token.is_number() || token.is(",");
+      });
+    };
     if (dialect_.language == Language::Basic || dialect_.language == Language::Test ||
-        values.empty() || checks_left() <= 0 ||
-        !std::all_of(values.begin(), values.end(),
-                     [](const Token& token) { return token.is_number() || token.is(","); }))
+        is_values(line) || !is_values(next) || is_values(next + 1) || checks_left() <= 1)
       return false;
+    const Context context{lines(1, line), "\n" + lines(next + 1, source_.line_count() + 1)};
+    const Source joined({}, context.above + std::string(source_.line(line)) + " " +
+                                repair::join(tokens_at(next)) + context.below);
+    const auto findings = dialect_.check(joined.text());
     ++checks_;
-    const Source joined({}, lines(1, line) + std::string(source_.line(line)) + " " +
-                                repair::join(values) + "\n" +
-                                lines(next + 1, source_.line_count() + 1));
-    auto findings = dialect_.check(joined.text());
-    repair::offer_lines(joined.text(), dialect_, findings);
-    std::erase_if(findings, [&](const Diagnostic& one) {
-      return !one.fix || joined.position(one.span.begin).line != line;
+    const auto wrong = std::find_if(findings.begin(), findings.end(), [&](const Diagnostic& one) {
+      return keeps_from_building(one) && joined.position(one.span.begin).line == line;
     });
-    if (findings.size() != 1)
+    auto text = std::string(joined.line(line));
+    auto errors = errors_in(findings);
+    if (wrong != findings.end()) {
+      const Scenery scenery(joined, dialect_.language);
+      auto whole = look_at(joined, dialect_, scenery, line);
+      normalise(whole);
+      const auto budget = checks_left();
+      Trial trial(whole, *wrong, context, findings, budget);
+      const auto found = repair::mend(trial);
+      checks_ += budget - trial.left();
+      if (found.size() != 1)
+        return false;
+      text = found[0].text;
+      errors = found[0].errors;
+    }
+    if (errors + 1 >= errors_in(before_))
       return false;
-    findings[0].fix->safety = Safety::Safe; // as if accepted
-    const Source mended({}, apply_fixes(joined.text(), findings).text);
-    if (errors_in(dialect_.check(mended.text())) + 1 >= errors_in(before_))
-      return false;
-    const auto text = std::string(mended.line(line));
     finding.help = texts::WriteAndRemoveLine(trim(text), next);
     finding.fix = Fix{finding.help,
                       {{source_.line_span(line), text},
