@@ -431,8 +431,9 @@ std::string Cursor::slashed() {
     return pattern;
   }
   // The last `$` of a pattern is its end.
-  const auto end =
-      begin_ + static_cast<std::uint32_t>(std::min(text_.rfind('$'), text_.size() - 1) + 1);
+  const auto dollar = text_.rfind('$');
+  const bool anchored = dollar != std::string_view::npos && begin_ + dollar > open;
+  const auto end = begin_ + static_cast<std::uint32_t>(anchored ? dollar + 1 : text_.size());
   const bool is_first = !failed_ && diagnostics_ != nullptr;
   fail_at({open, end}, *syntax_, texts::UnterminatedPattern(), texts::AddAfter('/'));
   if (is_first)

@@ -61,8 +61,8 @@ void ValuesPass::check_letters() {
     } else if (used && !set) {
       auto& d = findings_.add(rules::NeverAssigned, letter.first_used->span,
                               texts::UsedButNeverSet(spec::letter_name(i)));
-      const auto end = d.span.end;
-      if (spec::letter_name(i) == 'F' && program_.text.substr(end, 1) == "\"") // `f"A is {A}"`
+      if (holds("F f", program_.text_of(d.span)) &&
+          program_.text.substr(d.span.end, 1) == "\"") // `f"A is {A}"`
         d.message =
             repair::texts::IsWhose("f\"", "Python", repair::texts::PrintsWith("print \"A is \" A"));
       if (const auto meant = meant_by(i); !meant.empty())
