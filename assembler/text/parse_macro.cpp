@@ -115,7 +115,7 @@ ORB_CONTROL
 
 /// The character at a place; empty for a control character or bytes that are not UTF-8.
 std::string character_at(const char* at, const char* end) {
-  const std::string_view text(at, end);
+  const std::string_view text(at, static_cast<std::size_t>(end - at));
   const auto size = utf8_length(text);
   return size > 1 || (*at >= ' ' && *at <= '~') ? std::string(text.substr(0, size)) : "";
 }
