@@ -335,7 +335,10 @@ std::string statements_in_one(const Program& program, std::uint32_t line) {
     if (i < tokens.size() && !tokens[i].is(":"))
       continue;
     const auto end = i < tokens.size() ? tokens[i].at : text.size(); // including the comment
-    const auto one = fmt::format("{} {}", next, trim(text.substr(from, end - from)));
+    const auto statement = trim(text.substr(from, end - from));
+    if (statement.empty() && i == tokens.size())
+      break; // `next L:`
+    const auto one = fmt::format("{} {}", next, statement);
     if (!program.dialect.parses(one) ||
         (next != number && !program.scenery.jumps_to(std::to_string(next)).empty()))
       return {};

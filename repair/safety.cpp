@@ -557,6 +557,16 @@ bool is_lone(const Tokens& tokens, std::size_t at) {
                             : open_of(tokens, at) == tokens.size();
 }
 
+/// True if a bracket closed earlier would change the value: `(A + 1 / 2`.
+bool matters_where_closed(const Tokens& tokens, std::size_t open, std::size_t close) {
+  const auto sum = std::find_if(tokens.begin() + static_cast<std::ptrdiff_t>(open),
+                                tokens.begin() + static_cast<std::ptrdiff_t>(close),
+                                [](const Token& token) { return token.is("+") || token.is("-"); });
+  return std::any_of(
+      sum, tokens.begin() + static_cast<std::ptrdiff_t>(close),
+      [](const Token& token) { return token.is("*") || token.is("/") || token.is("%"); });
+}
+
 Advances bracket_in(const Alignment& place) {
   if (!(place.to().is("(") || place.to().is(")")))
     return {};
@@ -566,6 +576,8 @@ Advances bracket_in(const Alignment& place) {
   const auto opens = place.to().is("(") ? place.j : open_of(place.written, place.j);
   const bool lacked =
       opens < place.written.size() && has_token(place.said, place.to().is("(") ? ")" : "(");
+  if (lacked && place.to().is(")") && matters_where_closed(place.written, opens, place.j))
+    return {};
   return is_idle_at(place.written, place.j) || (lacked && stands_here_only(place))
              ? Advances{{0, 1}}
              : Advances();
@@ -886,6 +898,10 @@ bool says_the_same(std::string_view said, std::string_view written, const Readin
   if (said.starts_with("> ")) // an interactive prompt
     said.remove_prefix(2);
   const auto from = split(said, reading.language);
+  if (std::any_of(from.tokens.begin(), from.tokens.end(), [](const Token& token) {
+        return token.is_text() && !token.closed && token.text.find('\'') != std::string::npos;
+      }))
+    return false; // the text may end at the other quote
   Tokens tokens;
   std::string comment;
   std::string head;
@@ -900,6 +916,10 @@ bool says_the_same(std::string_view said, std::string_view written, const Readin
     append(tokens, line.tokens);
     comment += line.comment;
   }
+  // `RGBO,0,0` may have a 0.
+  for (const auto* const letter : {"O", "o", "l"})
+    if (has_token(tokens, letter) && !has_token(from.tokens, letter))
+      return false;
   // Another number is another line. If no statement is left, no number has to be kept.
   if ((trim(head) != trim(from.head) && !tokens.empty()) ||
       notation::words_of(comment) != notation::words_of(from.comment) ||
