@@ -9,9 +9,7 @@
 #include "repair/word_index.h"
 
 #include <algorithm>
-#include <cmath>
 #include <fmt/format.h>
-#include <functional>
 #include <numeric>
 
 namespace orb::repair {

@@ -291,6 +291,11 @@ bool is_unreadable(const Diagnostic& finding) {
          std::find(troubles.begin(), troubles.end(), finding.rule->trouble) != troubles.end();
 }
 
+/// True if a finding is a name that foreign words may begin with: `f"A is {A}"`.
+bool is_unset(const Diagnostic& finding) {
+  return !is_error(finding) && finding.rule->trouble == Trouble::UnknownName;
+}
+
 /// Fills the holes of a hint; nothing if a value does not have the required form.
 std::optional<std::vector<Message>> fill_each(std::string_view forms, const Holes& holes,
                                               const Surroundings& around) {
@@ -521,11 +526,13 @@ void say_foreign(std::string_view text, Language language, std::vector<Diagnosti
   const Source source({}, std::string(text));
   std::set<std::uint32_t> lines;
   for (auto& finding : findings) {
-    const auto n = is_unreadable(finding) ? source.position(finding.span.begin).line : 0;
+    const bool unset = is_unset(finding);
+    const auto n = unset || is_unreadable(finding) ? source.position(finding.span.begin).line : 0;
     const auto found = n != 0 && lines.insert(n).second
                            ? find_foreign(source.line(n), language, patterns)
                            : std::nullopt;
-    if (!found || is_own_word(source, found->word, language))
+    if (!found || is_own_word(source, found->word, language) ||
+        (unset && source.line_start(n) + found->span.begin != finding.span.begin))
       continue;
     finding.span = {source.line_start(n) + found->span.begin,
                     source.line_start(n) + found->span.end};

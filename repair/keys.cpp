@@ -3,10 +3,8 @@
 #include "base/text/text.h"
 
 #include <algorithm>
-#include <array>
 #include <string>
 #include <string_view>
-#include <vector>
 
 // Typing errors: an adjacent key, a missing shift, a missing character.
 
@@ -107,7 +105,9 @@ void single_letters(Line& line) {
   auto& tokens = line.tokens;
   for (std::size_t i = 0; i < tokens.size(); ++i) {
     const auto& text = tokens[i].text;
-    const bool begins = tokens[i].gap || (i == 0 && !looks_like_digits(text)); // `1OO delay 5`
+    const bool numbers = !line.head.empty() && is_digit(line.head.back()) &&
+                         looks_like_digits(text); // `1OO delay 5`
+    const bool begins = tokens[i].gap || (i == 0 && !numbers);
     if (tokens[i].is_word() && begins && text.size() == 2 && text[0] == text[1] &&
         to_lower(text[0]) != text[0])
       tokens[i].text.resize(1);

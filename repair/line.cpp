@@ -88,7 +88,6 @@ Line look_at(const Source& source, const Dialect& dialect, const Scenery& scener
     line.is_target = !scenery.jumps_to(scenery.number(number)).empty();
     line.number_above = scenery.number_above(number);
     line.around.names = scenery.set_without(line.tokens);
-    line.letters = scenery.letters_without(line.tokens);
     return line;
   }
   line.names = line.around.elsewhere;

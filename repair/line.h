@@ -41,8 +41,7 @@ struct Line : SplitLine {
   std::uint32_t begin = 0;   ///< its offset in the source
   std::size_t head_size = 0; ///< of the head as written
   Surroundings around;
-  std::vector<std::string_view> names;   ///< words of other lines; in orbBasic: none
-  std::vector<std::string_view> letters; ///< in orbBasic: variables that other lines use
+  std::vector<std::string_view> names; ///< words of other lines; in orbBasic: none
   std::string number_above;
   std::string sub;         ///< the program's sub that the line calls, correctly or not
   std::string like;        ///< the sub whose name means the same as the first word

@@ -26,9 +26,6 @@ std::span<const Rewrite> rewrites();
 /// Rewrites a line towards the notation of its language: spellings, signs, labels, quotes.
 void normalise(Line& line);
 
-/// True if a word is one letter away from a word of the language.
-bool is_misspelt(const Line& line, std::string_view word);
-
 // keys.cpp
 void comma_for_point(Line& line);
 void join_words(Line& line);

@@ -324,10 +324,8 @@ private:
       const Scenery scenery(joined, dialect_.language);
       auto whole = look_at(joined, dialect_, scenery, line);
       normalise(whole);
-      const auto budget = checks_left();
-      Trial trial(whole, *wrong, context, findings, budget);
-      const auto found = repair::mend(trial);
-      checks_ += budget - trial.left();
+      auto first = *wrong;
+      const auto found = mend(whole, context, findings, first);
       if (found.size() != 1)
         return false;
       text = found[0].text;
@@ -566,14 +564,12 @@ private:
   }
 
   /// Drops the proposal for a line that becomes correct once the others are repaired: it was judged
-  /// before them. Keeps it for lines that do not parse, and for lists below `prints`.
+  /// before them. Keeps it for lists below `prints`.
   void take_back(const std::vector<Diagnostic*>& findings) {
     if (texts_.size() < 2)
       return;
     std::optional<std::size_t> errors; // of the repaired text
     for (auto* finding : findings) {
-      if (dialect_.language != Language::Test && !dialect_.parses(source_.line(line_of(*finding))))
-        continue;
       if (!errors)
         errors = errors_in(dialect_.check(whole_text()));
       const auto mended = texts_.extract(line_of(*finding));
@@ -655,11 +651,17 @@ private:
 
   /// Finds the replacements for a line, the best first; stores all checked ones in the finding.
   std::vector<Accepted> mend(Line& line, Diagnostic& finding) {
-    line.misplaced = finding.rule->trouble == Trouble::MisplacedStatement;
     const auto at = source_.position(line.begin).line;
     const auto context = around(at);
+    return mend(line, context, before(at, context), finding);
+  }
+
+  /// The same for a line of another text, with the findings about that text.
+  std::vector<Accepted> mend(Line& line, const Context& context,
+                             const std::vector<Diagnostic>& before, Diagnostic& finding) {
+    line.misplaced = finding.rule->trouble == Trouble::MisplacedStatement;
     const auto budget = checks_left();
-    Trial trial(line, finding, context, before(at, context), budget);
+    Trial trial(line, finding, context, before, budget);
     auto all = repair::mend(trial);
     checks_ += budget - trial.left();
     finding.considered = std::move(trial.considered());

@@ -148,8 +148,7 @@ std::optional<Numeral> number_at(const Alignment& place) {
   const auto letters = std::count_if(text.begin(), text.end(), [](char c) { return !is_digit(c); });
   if (letters * 2 >= static_cast<std::ptrdiff_t>(text.size()) + (first.is_number() ? 1 : 0))
     return std::nullopt;
-  for (auto& c : text)
-    c = c == 'l' || c == 'I' ? '1' : c == 'O' || c == 'o' ? '0' : c;
+  text = as_digits(std::move(text));
   const bool digits = !text.empty() && std::all_of(text.begin(), text.end(), is_digit);
   number.digits = text;
   return digits ? std::optional(number) : std::nullopt;
@@ -331,7 +330,10 @@ Advances same_token(const Alignment& place) {
     return {};
   if (!from.is_text() || from.closed)
     return {{1, 1}};
-  // The closing quote is missing. If a value or a separator follows, the text ends elsewhere.
+  // The closing quote is missing. If a value, a separator or another quote follows, the text ends
+  // elsewhere.
+  if (from.text.find('\'') != std::string::npos)
+    return {};
   const auto inner = tokens_of(from.text, place.reading.language);
   const bool all = std::none_of(inner.begin(), inner.end(), [&](const Token& token) {
     return token.is(",") || token.is(";") || (token.is_word() && place.is_name(token.text)) ||
@@ -376,9 +378,13 @@ Advances together(const Alignment& place) {
   while (words < most && place.to(words).is_word() &&
          (place.is_word(place.to(words).text) || place.is_name(place.to(words).text)))
     ++words;
+  const auto is_digit_perhaps = [](const std::string& name) { // `RGBO,0,0`
+    return name == "O" || name == "o" || name == "l";
+  };
   for (std::size_t n = 1; n <= apart; ++n)
     for (std::size_t m = 1; m <= words; ++m)
-      if (n + m > 2 && letters_in(place.said, place.i, n) == letters_in(place.written, place.j, m))
+      if (n + m > 2 && !(m > n && is_digit_perhaps(place.to(m - 1).text)) &&
+          letters_in(place.said, place.i, n) == letters_in(place.written, place.j, m))
         return {{n, m}};
   return {};
 }
@@ -898,10 +904,6 @@ bool says_the_same(std::string_view said, std::string_view written, const Readin
   if (said.starts_with("> ")) // an interactive prompt
     said.remove_prefix(2);
   const auto from = split(said, reading.language);
-  if (std::any_of(from.tokens.begin(), from.tokens.end(), [](const Token& token) {
-        return token.is_text() && !token.closed && token.text.find('\'') != std::string::npos;
-      }))
-    return false; // the text may end at the other quote
   Tokens tokens;
   std::string comment;
   std::string head;
@@ -916,10 +918,6 @@ bool says_the_same(std::string_view said, std::string_view written, const Readin
     append(tokens, line.tokens);
     comment += line.comment;
   }
-  // `RGBO,0,0` may have a 0.
-  for (const auto* const letter : {"O", "o", "l"})
-    if (has_token(tokens, letter) && !has_token(from.tokens, letter))
-      return false;
   // Another number is another line. If no statement is left, no number has to be kept.
   if ((trim(head) != trim(from.head) && !tokens.empty()) ||
       notation::words_of(comment) != notation::words_of(from.comment) ||

@@ -121,24 +121,16 @@ std::string Scenery::sub_of(const Tokens& line) const {
   return {};
 }
 
-std::vector<std::string_view> Scenery::others(const Tokens& line, Words wanted) const {
+std::vector<std::string_view> Scenery::words_without(const Tokens& line) const {
   std::vector<std::string_view> names;
   for (const auto& [word, count] : words_) {
     const auto here = std::count_if(line.begin(), line.end(), [&word = word](const Token& token) {
       return token.text == word;
     });
-    if (count > static_cast<std::size_t>(here) && (word.size() == 1) == (wanted == Words::Letters))
+    if (count > static_cast<std::size_t>(here) && word.size() != 1)
       names.push_back(word);
   }
   return names;
-}
-
-std::vector<std::string_view> Scenery::words_without(const Tokens& line) const {
-  return others(line, Words::Longer);
-}
-
-std::vector<std::string_view> Scenery::letters_without(const Tokens& line) const {
-  return others(line, Words::Letters);
 }
 
 std::vector<std::string_view> Scenery::set_without(const Tokens& line) const {

@@ -35,9 +35,6 @@ public:
   /// Multi-letter words that other lines assign: `count = 0`.
   std::vector<std::string_view> set_without(const Tokens& line) const;
 
-  /// One-letter variables that other lines of an orbBasic program use.
-  std::vector<std::string_view> letters_without(const Tokens& line) const;
-
   /// A name that occurs once and is close to `word`, or means the same: its misspelt definition.
   std::optional<std::string> misspelt(std::string_view word,
                                       const std::vector<std::string_view>& known) const;
@@ -94,10 +91,6 @@ private:
   /// True if a line ends a subroutine: one begins above without an exit before the line, and
   /// another one or nothing follows.
   bool ends_sub(std::uint32_t line) const;
-
-  /// Words of other lines, either one-letter or longer ones.
-  enum class Words : std::uint8_t { Letters, Longer };
-  std::vector<std::string_view> others(const Tokens& line, Words wanted) const;
 
   struct Sub {
     std::string name;

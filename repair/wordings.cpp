@@ -95,11 +95,15 @@ void drop_prefixes(Line& line) {
   }
 }
 
+namespace {
+
 /// True if a word is one letter away from a word of the language.
 bool is_misspelt(const Line& line, std::string_view word) {
   const auto near = closest(word, line.dialect->words);
   return near && edit_distance(word, *near) == 1;
 }
+
+} // namespace
 
 /// Replaces inflected words by the form in the tables: `attendez` by `attendre`.
 void other_forms(Line& line) {

@@ -2,8 +2,6 @@
 
 #include "compiler/lint/values_pass.h"
 
-#include "repair/texts.h"
-
 namespace orb::compiler {
 
 void ValuesPass::collect_letters() {
@@ -61,10 +59,6 @@ void ValuesPass::check_letters() {
     } else if (used && !set) {
       auto& d = findings_.add(rules::NeverAssigned, letter.first_used->span,
                               texts::UsedButNeverSet(spec::letter_name(i)));
-      if (holds("F f", program_.text_of(d.span)) &&
-          program_.text.substr(d.span.end, 1) == "\"") // `f"A is {A}"`
-        d.message =
-            repair::texts::IsWhose("f\"", "Python", repair::texts::PrintsWith("print \"A is \" A"));
       if (const auto meant = meant_by(i); !meant.empty())
         d.fix = single_fix(texts::WriteValue(meant), d.span, meant, Safety::Unsafe);
     }

@@ -226,7 +226,7 @@ void TextPass::add_missing_blank(std::uint32_t at, Message message) {
   auto& d = findings_.add(rules::MissingBlank, {at, at}, std::move(message));
   d.fix = single_fix(texts::InsertSpace(), {at, at}, " ");
   const auto text = std::string_view(program_.text).substr(at);
-  const auto alike = std::min(text.find_first_not_of("OolI"), text.size());
+  const auto alike = std::min(text.find_first_not_of("OoLlIi"), text.size());
   const bool digit = alike > 0 && (alike == text.size() || is_blank(text[alike])) && at > 0 &&
                      is_digit(program_.text[at - 1]);
   if (digit)
