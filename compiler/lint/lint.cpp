@@ -105,7 +105,7 @@ void place(const Program& program, std::vector<Diagnostic>& findings) {
   }
 }
 
-/// Runs the passes that need to know all jumps.
+/// Runs the passes that need to know all jumps, but those about values.
 void lint_ways(const Program& program, const Flow& flow, Findings& findings) {
   lint_flow(program, flow, findings);
   lint_effects(program, flow, findings);
@@ -114,7 +114,6 @@ void lint_ways(const Program& program, const Flow& flow, Findings& findings) {
   lint_waits(program, flow, settings, findings);
   lint_meant(program, flow, settings, findings);
   lint_sums(program, flow, findings);
-  lint_certain(program, flow, findings);
 }
 
 } // namespace
@@ -151,10 +150,13 @@ std::vector<Diagnostic> lint(const Program& program, const Target& target) {
                    [&](const Fault& fault) { return may_steer(program, fault); });
   lint_text(program, flow, target, findings);
   lint_age(program, target, findings);
-  lint_values(program, flow, target, jumps_known ? Jumps::Known : Jumps::Unknown, findings);
+  const bool at_risk = lint_values(program, flow, target,
+                                   jumps_known ? Jumps::Known : Jumps::Unknown, findings);
   if (jumps_known) {
     lint_loops(program, flow, findings);
     lint_ways(program, flow, findings);
+    if (at_risk)
+      lint_certain(program, flow, findings);
   }
   if (target.robot)
     lint_robot(program, *target.robot, findings);
@@ -171,8 +173,10 @@ std::vector<Diagnostic> lint_meaning(const Program& program, const Target& targe
   Findings findings;
   const auto flow = read_flow(program);
   lint_age(program, target, findings);
-  lint_values(program, flow, target, Jumps::Known, findings);
+  const bool at_risk = lint_values(program, flow, target, Jumps::Known, findings);
   lint_ways(program, flow, findings);
+  if (at_risk)
+    lint_certain(program, flow, findings);
   if (target.robot)
     lint_robot(program, *target.robot, findings);
   sort_by_place(findings.all());

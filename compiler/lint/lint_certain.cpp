@@ -1,4 +1,3 @@
-#include "compiler/analyse/trial_need.h"
 #include "compiler/analyse/trial_run.h"
 #include "compiler/lint/lint_passes.h"
 #include "compiler/text/rules.h"
@@ -80,8 +79,6 @@ void add_possible(const Program& program, const TrialFault& fault, const Trial& 
 } // namespace
 
 void lint_certain(const Program& program, const Flow& flow, Findings& findings) {
-  if (!needs_trial(program, flow))
-    return;
   const auto trial = try_program(program, flow);
   for (const auto& fault : trial.faults) {
     const auto& all = findings.all();

@@ -54,8 +54,9 @@ void lint_age(const Program& program, const Target& target, Findings& findings);
 /// line.
 enum class Jumps : std::uint8_t { Known, Unknown };
 
-/// Lints the values of letters, parameters and data.
-void lint_values(const Program& program, const Flow& flow, const Target& target, Jumps jumps,
+/// Lints the values of letters, parameters and data. Returns true if some value may stop the
+/// program, so that a trial is worth its time.
+bool lint_values(const Program& program, const Flow& flow, const Target& target, Jumps jumps,
                  Findings& findings);
 
 /// Lints how `for` and `next` pair on all paths.

@@ -419,17 +419,18 @@ void ValuesPass::begin_block() {
   index_begins_.reset();
 }
 
-void ValuesPass::run(Jumps jumps) {
+bool ValuesPass::run(Jumps jumps) {
   collect_letters();
   if (jumps == Jumps::Known && ways_.prepare())
     follow();
   check_lines();
   check_letters();
+  return at_risk_ || !flow_.all(spec::Statement::Read).empty();
 }
 
-void lint_values(const Program& program, const Flow& flow, const Target& target, Jumps jumps,
+bool lint_values(const Program& program, const Flow& flow, const Target& target, Jumps jumps,
                  Findings& findings) {
-  ValuesPass(program, flow, target, findings).run(jumps);
+  return ValuesPass(program, flow, target, findings).run(jumps);
 }
 
 } // namespace orb::compiler

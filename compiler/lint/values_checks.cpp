@@ -48,6 +48,7 @@ void ValuesPass::take_up(std::uint32_t code) {
 
 void ValuesPass::check_outside(const Item& value, std::string_view word,
                                const spec::Parameter& parameter) {
+  note_risk(value.value);
   const auto& range = range_of(value);
   if (range.misses(parameter.least, parameter.greatest))
     add_out_of_range(value, word, parameter);
@@ -425,6 +426,7 @@ void ValuesPass::check_index(Span span) {
   const auto& index = letters_[index_letter];
   const auto range = now_.ranges[index_letter];
   const auto most = spec::value_of(spec::Limit::IndexedVariables);
+  at_risk_ = at_risk_ || range.lo < 1 || range.hi > most;
   if (range.misses(1, most)) {
     if (index.first_set == nullptr)
       findings_.add(rules::IndexRange, span, texts::IndexNeverSet(), texts::UseAnotherLetter());
@@ -477,11 +479,13 @@ void ValuesPass::check_on(const OnView& on) {
   const auto& [selector, targets] = on;
   const auto count = static_cast<std::int32_t>(targets.size());
   const auto range = range_of(selector);
+  if (range.lo >= 1 && range.hi <= count)
+    return;
+  note_risk(selector.value);
   const auto list = counted(targets.size(), texts::ListHasOne, texts::ListHas);
   if (range.misses(1, count))
     findings_.add(rules::SelectorRange, selector.span, texts::FoundValue(list, shown(range)));
-  else if ((known_[selector.value].exact || is_counted(selector)) &&
-           (range.lo < 1 || range.hi > count))
+  else if (known_[selector.value].exact || is_counted(selector))
     add_may_leave(selector, list,
                   range.hi > count ? counted(static_cast<std::size_t>(range.hi - count),
                                              texts::WriteOneMoreNumber, texts::WriteMoreNumbers)

@@ -90,6 +90,14 @@ bool ValuesPass::is_exact_sum(const Node& node, std::uint32_t right) const {
   return false;
 }
 
+void ValuesPass::note_risk(std::uint32_t root) {
+  const auto begin = program_.nodes.begin() + program_.nodes[root].first;
+  const auto end = program_.nodes.begin() + root + 1;
+  at_risk_ = at_risk_ || std::any_of(begin, end, [](const Node& node) {
+               return node.kind == NodeKind::Letter || node.kind == NodeKind::Indexed;
+             });
+}
+
 void ValuesPass::note_uses(const StatementNode& statement) {
   if (statement.error)
     return;
@@ -119,6 +127,8 @@ void ValuesPass::check_binary(const Node& node, std::uint32_t index) {
   const bool divides = op == spec::Operator::Divide || op == spec::Operator::Remainder;
   const bool shifts = op == spec::Operator::ShiftLeft || op == spec::Operator::ShiftRight;
   const auto most = spec::value_of(spec::Limit::GreatestShift);
+  if ((divides && right.has(0)) || (shifts && (right.lo < 0 || right.hi > most)))
+    note_risk(index - 1);
   if (divides && right == Range::only(0)) {
     findings_.add(rules::DivisionByZero, right_span,
                   program_.nodes[index - 1].kind == NodeKind::Number
@@ -140,6 +150,8 @@ void ValuesPass::check_call(const Node& node, std::uint32_t index) {
   if (row.function == spec::Function::Rnd && range == Range::only(1) &&
       program_.nodes[index - 1].kind != NodeKind::Letter)
     findings_.add(rules::AlwaysOne, node.span, texts::RndIsAlwaysOne(), texts::WriteRndTwo());
+  if (range.lo < row.least || range.hi > row.greatest)
+    note_risk(index - 1);
   if (!range.misses(row.least, row.greatest))
     return;
   findings_.add(rules::ValueOutOfRange, program_.nodes[index - 1].span,

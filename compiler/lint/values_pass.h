@@ -68,8 +68,9 @@ public:
       : program_(program), flow_(flow), target_(target), findings_(findings),
         known_(program.nodes.size()), ways_(program, flow) {}
 
-  /// If jumps are unknown, follows values only up to the next line that a jump may reach.
-  void run(Jumps jumps);
+  /// If jumps are unknown, follows values only up to the next line that a jump may reach. Returns
+  /// true if some value may stop the program.
+  bool run(Jumps jumps);
 
 private:
   // ---- letters
@@ -240,6 +241,10 @@ private:
 
   bool is_exact_sum(const Node& node, std::uint32_t right) const;
 
+  /// Notes that an expression can have a value that stops the program, unless numbers and sensors
+  /// alone decide that: then a trial knows no more.
+  void note_risk(std::uint32_t root);
+
   void note_use(const Node& letter) {
     auto& first = letters_[letter.what].first_used;
     first = first == nullptr ? &letter : first;
@@ -275,6 +280,7 @@ private:
   LetterSet moved_ = 0;     ///< letters changed in a branch of this line
   bool following_ = false;
   bool followed_ = false;
+  bool at_risk_ = false; ///< some value may stop the program
   std::optional<std::int32_t> index_begins_; ///< start of the enclosing loop if it counts in `Y`
 
   DataSet data_;
