@@ -1,7 +1,6 @@
 #include "compiler/analyse/letter_flow.h"
 
 #include <algorithm>
-#include <bit>
 
 namespace orb::compiler {
 namespace {
@@ -9,50 +8,12 @@ namespace {
 constexpr std::uint32_t most_lines = 2048; ///< more than fit into any robot
 constexpr std::size_t most_routines = 64;
 
-/// The bit of a joined letter: set if it holds on both sides, or on the side that equals the
-/// result.
-LetterSet joined_bit(LetterSet a, LetterSet b, const Range& left, const Range& right,
-                     const Range& joined, LetterSet mask) {
-  const bool from_left = (a & mask) != 0;
-  const bool from_right = (b & mask) != 0;
-  if ((from_left && from_right) || (from_left && left == joined) || (from_right && right == joined))
-    return mask;
-  return 0;
-}
-
-/// True if the state of a letter is the same in both.
-bool same(const LetterFacts& a, const LetterFacts& b, std::size_t letter) {
-  return a.ranges[letter] == b.ranges[letter] &&
-         (((a.exact ^ b.exact) | (a.dense ^ b.dense)) & bit(letter)) == 0;
-}
-
-/// Joins one letter; returns true if its range changed.
-bool join_letter(LetterFacts& into, const LetterFacts& from, std::size_t letter) {
-  const auto old = into.ranges[letter];
-  const auto& other = from.ranges[letter];
-  const auto mask = bit(letter);
-  const auto joined = join(old, other);
-  const auto exact = joined_bit(into.exact, from.exact, old, other, joined, mask);
-  // Two ranges may leave a gap between them.
-  const auto dense = old == joined || other == joined
-                         ? joined_bit(into.dense, from.dense, old, other, joined, mask)
-                         : 0;
-  into.ranges[letter] = joined;
-  into.exact = (into.exact & ~mask) | exact;
-  into.dense = (into.dense & ~mask) | (dense & exact);
-  return !(joined == old);
-}
-
 } // namespace
 
-bool join_into(LetterFacts& into, const LetterFacts& from, LetterSet letters) {
-  bool changed = false;
-  into.narrowed |= from.narrowed & letters;
-  for (; letters != 0; letters &= letters - 1)
-    if (const auto letter = static_cast<std::size_t>(std::countr_zero(letters));
-        !same(into, from, letter))
-      changed = join_letter(into, from, letter) || changed;
-  return changed;
+void join_into(LetterValues& into, const LetterValues& from) {
+  for (std::size_t i = 0; i < into.size(); ++i)
+    if (!(into[i] == from[i]))
+      into[i] = join(into[i], from[i]);
 }
 
 void LetterFlow::keep(std::uint32_t code) {
@@ -159,7 +120,7 @@ void LetterFlow::find_landmarks() {
   landmarks_ = landmarks_of(std::move(named));
 }
 
-const LetterFacts* LetterFlow::before(std::uint32_t code) const {
+const LetterValues* LetterFlow::before(std::uint32_t code) const {
   const auto& block = blocks_[block_of_[code]];
   return block.reached ? &block.letters : nullptr;
 }
@@ -169,7 +130,7 @@ void LetterFlow::wait(std::uint32_t block) {
   first_waiting_ = std::min(first_waiting_, block);
 }
 
-void LetterFlow::enter(std::uint32_t code, const LetterFacts& letters) {
+void LetterFlow::enter(std::uint32_t code, const LetterValues& letters) {
   if (code >= block_of_.size() || block_of_[code] == none)
     return; // no line, or one reached from the line above
   auto& block = blocks_[block_of_[code]];
@@ -183,25 +144,23 @@ void LetterFlow::enter(std::uint32_t code, const LetterFacts& letters) {
     wait(block_of_[code]);
 }
 
-bool LetterFlow::grow(LetterFacts& into, const LetterFacts& from, std::uint32_t visits) const {
+bool LetterFlow::grow(LetterValues& into, const LetterValues& from, std::uint32_t visits) const {
   constexpr std::uint32_t patience = 2;
   constexpr std::uint32_t limit = 24;
-  const auto before = into;
-  if (!join_into(into, from, letters_of(program_)))
-    return std::pair{before.exact, before.dense} != std::pair{into.exact, into.dense};
-  if (visits > patience)
-    for (std::size_t i = 0; i < program_.letters; ++i) {
-      auto& range = into.ranges[i];
-      if (range == before.ranges[i])
-        continue;
-      range = visits > limit ? Range{} : widen(landmarks_, before.ranges[i], range);
-      into.exact &= ~bit(i);
-      into.dense &= ~bit(i);
-    }
-  return true;
+  bool changed = false;
+  for (std::size_t i = 0; i < program_.letters; ++i) {
+    if (into[i] == from[i])
+      continue;
+    auto joined = join(into[i], from[i]);
+    if (visits > patience && !(joined.range == into[i].range))
+      joined = {visits > limit ? Range{} : widen(landmarks_, into[i].range, joined.range)};
+    changed = changed || !(joined == into[i]);
+    into[i] = joined;
+  }
+  return changed;
 }
 
-bool LetterFlow::call(std::uint32_t entry, std::uint32_t from, LetterFacts& letters) {
+bool LetterFlow::call(std::uint32_t entry, std::uint32_t from, LetterValues& letters) {
   const auto routine = std::find_if(routines_.begin(), routines_.end(),
                                     [&](const Routine& one) { return one.entry == entry; });
   if (routine == routines_.end())
@@ -214,15 +173,11 @@ bool LetterFlow::call(std::uint32_t entry, std::uint32_t from, LetterFacts& lett
     return false;
   for (std::size_t i = 0; i < program_.letters; ++i)
     if ((routine->written & bit(i)) != 0)
-      letters.ranges[i] = routine->letters.ranges[i];
-  letters.narrowed =
-      (letters.narrowed & ~routine->written) | (routine->letters.narrowed & routine->written);
-  letters.exact = (letters.exact & ~routine->written) | (routine->letters.exact & routine->written);
-  letters.dense = (letters.dense & ~routine->written) | (routine->letters.dense & routine->written);
+      letters[i] = routine->letters[i];
   return true;
 }
 
-void LetterFlow::leave(std::uint32_t code, const LetterFacts& letters) {
+void LetterFlow::leave(std::uint32_t code, const LetterValues& letters) {
   for (auto& routine : routines_) {
     if (routine.lines[code] == 0)
       continue;

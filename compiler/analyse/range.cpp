@@ -134,10 +134,6 @@ Range apply(spec::Function function, const Range& operand) {
   return {};
 }
 
-Range negate(const Range& operand) {
-  return apply(spec::Operator::Subtract, Range::only(0), operand);
-}
-
 std::optional<Range> where(spec::Relation relation, Holds holds, Range left, Range right) {
   std::int64_t lo = left.lo;
   std::int64_t hi = left.hi;

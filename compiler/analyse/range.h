@@ -44,9 +44,6 @@ Range apply(spec::Operator op, const Range& left, const Range& right);
 /// The possible results of a function for operands that it accepts.
 Range apply(spec::Function function, const Range& operand);
 
-/// `0 - operand`.
-Range negate(const Range& operand);
-
 /// Selects if a comparison holds. Narrows its left side to the values for which it does; nothing if
 /// there are none.
 enum class Holds : std::uint8_t { Yes, No };

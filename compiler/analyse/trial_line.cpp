@@ -59,48 +59,38 @@ void TrialLine::stop_at(Span span, Message allowed, const Range& range, Message 
        std::move(help));
 }
 
-const TrialValue& TrialLine::value(const Item& item) {
+const Value& TrialLine::value(const Item& item) {
   for (auto n = program_.nodes[item.value].first; n <= item.value; ++n)
     known_[n] = compute(program_.nodes[n], n);
   return known_[item.value];
 }
 
-TrialValue TrialLine::compute(const Node& node, std::uint32_t index) {
+Value TrialLine::compute(const Node& node, std::uint32_t index) {
   switch (node.kind) {
-  case NodeKind::Number: return node.overflow ? TrialValue{} : TrialValue::only(node.value);
   case NodeKind::Letter: return now_.letters[node.what];
   case NodeKind::Indexed: return element(node.span);
   case NodeKind::System: {
     const auto& row = spec::variables[node.what];
     return {{row.least, row.greatest}, true, true, is_brought_about(row)};
   }
-  case NodeKind::Group: return known_[index - 1];
-  case NodeKind::Negate:
-    return sum_of(spec::Operator::Subtract, TrialValue::only(0), known_[index - 1]);
-  case NodeKind::Call: return call(node, index);
-  case NodeKind::Binary: {
-    const auto& right = known_[index - 1];
-    const auto left = program_.nodes[index - 1].first - 1;
+  case NodeKind::Call:
+    check_operand(spec::functions[node.what], program_.nodes[index - 1].span,
+                  known_[index - 1].range);
+    break;
+  case NodeKind::Binary:
     check_right(static_cast<spec::Operator>(node.what), program_.nodes[index - 1].span,
-                right.range);
-    return sum_of(static_cast<spec::Operator>(node.what), known_[left], right);
+                known_[index - 1].range);
+    break;
+  case NodeKind::Number:
+  case NodeKind::Group:
+  case NodeKind::Negate: break;
   }
-  }
-  return {};
+  return value_of(program_, index, known_);
 }
 
-TrialValue TrialLine::call(const Node& node, std::uint32_t index) {
-  const auto& row = spec::functions[node.what];
-  const auto& operand = known_[index - 1];
-  const auto span = program_.nodes[index - 1].span;
-  if (operand.range.misses(row.least, row.greatest))
-    stop_at(span, texts::TakesOrMore(row.word, row.least), operand.range);
-  TrialValue result{apply(row.function, operand.range), operand.exact};
-  if (result.range.constant())
-    return TrialValue::only(result.range.lo);
-  result.dense = row.function == spec::Function::Rnd && operand.range.constant();
-  result.driven = operand.driven;
-  return result;
+void TrialLine::check_operand(const spec::FunctionInfo& row, Span span, const Range& operand) {
+  if (operand.misses(row.least, row.greatest))
+    stop_at(span, texts::TakesOrMore(row.word, row.least), operand);
 }
 
 void TrialLine::check_right(spec::Operator op, Span span, const Range& right) {
@@ -115,7 +105,7 @@ void TrialLine::check_right(spec::Operator op, Span span, const Range& right) {
     stop_at(span, texts::ShiftMustBe(most), right);
 }
 
-TrialValue* TrialLine::selected(Span span) {
+Value* TrialLine::selected(Span span) {
   const auto& index = now_.letters[index_letter].range;
   const auto most = spec::value_of(spec::Limit::IndexedVariables);
   if (index.misses(1, most))
@@ -125,9 +115,9 @@ TrialValue* TrialLine::selected(Span span) {
              : nullptr;
 }
 
-TrialValue TrialLine::element(Span span) {
+Value TrialLine::element(Span span) {
   const auto* one = selected(span);
-  return one == nullptr ? TrialValue{} : *one;
+  return one == nullptr ? Value{} : *one;
 }
 
 void TrialLine::check_value(const Item& item, std::string_view word,
@@ -149,7 +139,7 @@ std::string TrialLine::in_parentheses(const Item& item) const {
              : text;
 }
 
-void TrialLine::set(const Item& variable, const TrialValue& to) {
+void TrialLine::set(const Item& variable, const Value& to) {
   if (variable.kind == ItemKind::Letter) {
     now_.letters[variable.value] = to;
   } else if (variable.kind == ItemKind::Indexed) {
@@ -202,7 +192,7 @@ void TrialLine::let(const LetView& let) {
 
 void TrialLine::read(const StatementNode& statement) {
   for (const auto& variable : program_.items_of(statement)) {
-    TrialValue next;
+    Value next;
     if (now_.data == none) {
       stop(rules::ReadPastData, statement.span, texts::Without("read", "data"),
            texts::AddDataAbove());
@@ -213,7 +203,7 @@ void TrialLine::read(const StatementNode& statement) {
                     counted(all.size(), texts::ValueIsRead, texts::ValuesAreRead),
                     texts::WriteRstr());
       const auto number = number_in(program_, all[now_.data_next++]);
-      next = number ? TrialValue::only(*number) : TrialValue{};
+      next = number ? Value::only(*number) : Value{};
     }
     set(variable, next);
   }

@@ -29,16 +29,16 @@ protected:
 
   // ---- values
 
-  const TrialValue& value(const Item& item);
-  TrialValue compute(const Node& node, std::uint32_t index);
-  TrialValue call(const Node& node, std::uint32_t index);
+  const Value& value(const Item& item);
+  Value compute(const Node& node, std::uint32_t index);
+  void check_operand(const spec::FunctionInfo& row, Span span, const Range& operand);
   void check_right(spec::Operator op, Span span, const Range& right);
   /// The element selected by Y, if that is known.
-  TrialValue* selected(Span span);
-  TrialValue element(Span span);
+  Value* selected(Span span);
+  Value element(Span span);
   void check_value(const Item& item, std::string_view word, const spec::Parameter& parameter);
   std::string in_parentheses(const Item& item) const;
-  void set(const Item& variable, const TrialValue& to);
+  void set(const Item& variable, const Value& to);
   /// Records that the letters of an expression now depend on other known values.
   void bind(const Item& expression);
   /// Executes a statement that falls through.
@@ -49,7 +49,7 @@ protected:
 
   const Program& program_;
   const Flow& flow_;
-  std::vector<TrialValue> known_;   ///< by node
+  std::vector<Value> known_;        ///< by node
   std::vector<std::uint32_t> runs_; ///< executions, by line of code, on the only path
   Moment now_;
   std::uint32_t line_ = 0; ///< the current line of code

@@ -3,7 +3,6 @@
 #include "spec/limits.h"
 
 #include <algorithm>
-#include <cstdlib>
 
 namespace orb::compiler {
 namespace {
@@ -20,7 +19,7 @@ public:
     add(std::uint64_t{static_cast<std::uint32_t>(range.lo)} << 32 |
         static_cast<std::uint32_t>(range.hi));
   }
-  void add(const TrialValue& value) {
+  void add(const Value& value) {
     add(value.range);
     add(static_cast<std::uint64_t>(value.exact) | static_cast<std::uint64_t>(value.dense) << 1 |
         static_cast<std::uint64_t>(value.driven) << 2);
@@ -67,41 +66,14 @@ Moment beginning(const Program& program) {
   Moment moment;
   if (indexed) {
     use(index_letter);
-    moment.elements.assign(spec::value_of(spec::Limit::IndexedVariables), TrialValue::only(0));
+    moment.elements.assign(spec::value_of(spec::Limit::IndexedVariables), Value::only(0));
   }
-  moment.letters.assign(letters, TrialValue::only(0));
+  moment.letters.assign(letters, Value::only(0));
   return moment;
 }
 
-TrialValue sum_of(spec::Operator op, const TrialValue& left, const TrialValue& right) {
-  TrialValue sum{apply(op, left.range, right.range)};
-  if (sum.range.constant())
-    return TrialValue::only(sum.range.lo);
-  sum.exact = left.exact && right.exact;
-  sum.driven = left.driven || right.driven;
-  const bool dense = sum.exact && left.dense && right.dense;
-  const bool by_number = right.range.constant();
-  switch (op) {
-  case spec::Operator::Add:
-  case spec::Operator::Subtract: sum.dense = dense; break;
-  case spec::Operator::Divide: sum.dense = dense && by_number; break;
-  case spec::Operator::Remainder: // by a full turn or more
-    sum.dense =
-        dense && by_number &&
-        std::int64_t{left.range.hi} - left.range.lo >= std::abs(std::int64_t{right.range.lo}) - 1;
-    sum.exact = sum.dense;
-    break;
-  case spec::Operator::Multiply:
-  case spec::Operator::ShiftLeft:
-  case spec::Operator::ShiftRight:
-  case spec::Operator::And:
-  case spec::Operator::Or: break;
-  }
-  return sum;
-}
-
 void join_into(Moment& into, const Moment& from) {
-  const auto join_all = [](std::vector<TrialValue>& values, const std::vector<TrialValue>& others) {
+  const auto join_all = [](std::vector<Value>& values, const std::vector<Value>& others) {
     for (std::size_t i = 0; i < values.size(); ++i)
       if (!(values[i] == others[i]))
         values[i] = {join(values[i].range, others[i].range)};

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "compiler/analyse/range.h"
+#include "compiler/analyse/value.h"
 #include "compiler/text/program.h"
 
 #include <cstddef>
@@ -10,23 +10,12 @@
 
 namespace orb::compiler {
 
-/// The analysis state of a value.
-struct TrialValue {
-  Range range;
-  bool exact = false;  ///< both ends of the range are values that occur, regardless of other values
-  bool dense = false;  ///< in addition, so are all values between, as for a sensor
-  bool driven = false; ///< caused by the program itself: a time, a place, a speed
-
-  static TrialValue only(std::int32_t value) { return {Range::only(value), true, true}; }
-  friend bool operator==(const TrialValue&, const TrialValue&) = default;
-};
-
 /// An open `for` loop.
 struct TrialLoop {
   std::uint32_t letter = 0;
   std::uint32_t body = 0; ///< a line of code
   std::int32_t step = 0;
-  TrialValue end;
+  Value end;
   friend bool operator==(const TrialLoop&, const TrialLoop&) = default;
 };
 
@@ -35,8 +24,8 @@ struct Moment {
   static constexpr std::uint32_t unknown_data = none - 1;
 
   std::uint32_t at = 0; ///< the next line of code; none: the program ended
-  std::vector<TrialValue> letters;
-  std::vector<TrialValue> elements; ///< of Z
+  std::vector<Value> letters;
+  std::vector<Value> elements; ///< of Z
   std::vector<TrialLoop> loops;
   std::vector<std::uint32_t> calls; ///< return addresses
   std::uint32_t data = none;        ///< the statement whose values `read` takes
@@ -59,9 +48,6 @@ struct Moment {
 
 /// The state before the first line.
 Moment beginning(const Program& program);
-
-/// The result of `left op right`. Its ends occur if the ends of both operands do.
-TrialValue sum_of(spec::Operator op, const TrialValue& left, const TrialValue& right);
 
 /// Joins the state of another path to the same line.
 void join_into(Moment& into, const Moment& from);

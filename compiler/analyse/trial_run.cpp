@@ -137,7 +137,7 @@ private:
       return none;
     }
     auto& counter = now_.letters[loop.letter];
-    counter = sum_of(spec::Operator::Add, counter, TrialValue::only(loop.step));
+    counter = result_of(spec::Operator::Add, counter, Value::only(loop.step));
     const auto over = loop.step > 0 ? spec::Relation::Greater : spec::Relation::Less;
     if (!where(over, Holds::Yes, counter.range, loop.end.range))
       return loop.body;

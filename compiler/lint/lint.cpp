@@ -150,8 +150,8 @@ std::vector<Diagnostic> lint(const Program& program, const Target& target) {
                    [&](const Fault& fault) { return may_steer(program, fault); });
   lint_text(program, flow, target, findings);
   lint_age(program, target, findings);
-  const bool at_risk = lint_values(program, flow, target,
-                                   jumps_known ? Jumps::Known : Jumps::Unknown, findings);
+  const bool at_risk =
+      lint_values(program, flow, target, jumps_known ? Jumps::Known : Jumps::Unknown, findings);
   if (jumps_known) {
     lint_loops(program, flow, findings);
     lint_ways(program, flow, findings);

@@ -9,11 +9,10 @@ void ValuesPass::collect_letters() {
        {spec::Statement::Let, spec::Statement::For, spec::Statement::Read, spec::Statement::Input})
     for (const auto& place : flow_.all(kind))
       collect_set(program_.statements[place.statement]);
-  unknown_ = LetterFacts::zero();
-  unknown_.exact &= ~set_;
+  unknown_ = all_zero();
   for (std::uint32_t i = 0; i < program_.letters; ++i)
     if ((set_ & bit(i)) != 0)
-      unknown_.ranges[i] = {};
+      unknown_[i] = {};
 }
 
 void ValuesPass::collect_set(const StatementNode& statement) {
@@ -95,17 +94,12 @@ std::string ValuesPass::meant_by(std::uint32_t letter) const {
 
 void ValuesPass::forget_letters() {
   now_ = unknown_;
-  moved_ = set_;
   if ((set_ & bit(index_letter)) != 0)
     index_begins_.reset();
 }
 
-void ValuesPass::set_letter(std::uint32_t index, Range range, LetterSet exact, LetterSet dense) {
-  moved_ |= bit(index);
-  now_.ranges[index] = range;
-  now_.narrowed &= ~bit(index);
-  now_.exact = (now_.exact & ~bit(index)) | exact << index;
-  now_.dense = (now_.dense & ~bit(index)) | (exact & dense) << index;
+void ValuesPass::set_letter(std::uint32_t index, const Value& value) {
+  now_[index] = value;
   if (index == index_letter)
     index_begins_.reset();
 }
@@ -113,7 +107,7 @@ void ValuesPass::set_letter(std::uint32_t index, Range range, LetterSet exact, L
 void ValuesPass::follow() {
   following_ = true;
   find_data();
-  ways_.enter(0, LetterFacts::zero());
+  ways_.enter(0, all_zero());
   for (auto code = ways_.take(); code != none; code = ways_.take())
     follow(code);
   following_ = false;
@@ -195,7 +189,7 @@ bool ValuesPass::go(const StatementNode& statement, std::uint32_t code) {
     else if (statement.kind == spec::Statement::Return)
       ways_.leave(code, now_);
     else if (statement.kind == spec::Statement::Reset)
-      ways_.enter(0, LetterFacts::zero());
+      ways_.enter(0, all_zero());
     return row.after != spec::After::Ends;
   }
   return true;
@@ -208,7 +202,6 @@ bool ValuesPass::go_branches(const StatementNode& statement, std::uint32_t code)
       statement.else_branch == none ? nullptr : &program_.statements[statement.else_branch];
   conditional_ = true;
   const auto cleared = cleared_on_line_;
-  moved_ = 0;
   const bool then_falls =
       go_branch(condition, Holds::Yes, &program_.statements[statement.then_branch], code);
   auto after = now_;
@@ -217,10 +210,10 @@ bool ValuesPass::go_branches(const StatementNode& statement, std::uint32_t code)
   const bool else_falls = go_branch(condition, Holds::No, otherwise, code);
   conditional_ = false;
   if (then_falls && else_falls) {
-    const auto looked_at = now_.exact | after.exact;
-    join_into(now_, after, moved_);
+    join_into(now_, after);
     // A letter that is tested and kept on both paths is probably handled by the other statement.
-    now_.exact &= ~(looked_at & tested_);
+    for (std::uint32_t i = 0; i < program_.letters; ++i)
+      now_[i].exact = now_[i].exact && (tested_ & bit(i)) == 0;
   } else if (then_falls) {
     now_ = after;
   }
@@ -269,12 +262,11 @@ bool ValuesPass::assume(const Comparison& comparison, Holds holds) {
 
 void ValuesPass::narrow(const Item& side, const Range& from, const Range& to) {
   const auto letter = letter_in(program_, side);
-  if (!letter || now_.ranges[*letter] != from || from == to)
+  if (!letter || now_[*letter].range != from || from == to)
     return;
   tested_ |= bit(*letter);
-  const auto dense = now_.dense >> *letter & 1;
-  set_letter(*letter, to, dense, dense);
-  now_.narrowed |= bit(*letter);
+  const bool dense = now_[*letter].dense;
+  set_letter(*letter, {to, dense, dense, false, true});
 }
 
 void ValuesPass::set(const LetView& let) {
@@ -283,13 +275,7 @@ void ValuesPass::set(const LetView& let) {
       check_let(let);
     return;
   }
-  const auto range = range_of(let.expression);
-  const auto& root = program_.nodes[let.expression.value];
-  const bool spread = root.kind == NodeKind::Binary &&
-                      static_cast<spec::Operator>(root.what) == spec::Operator::Multiply;
-  const LetterSet exact = known_[let.expression.value].exact;
-  const bool number = range.constant();
-  set_letter(let.variable.value, range, exact, spread || number ? 0 : exact);
+  set_letter(let.variable.value, known_[let.expression.value]);
 }
 
 Range ValuesPass::rounds(const ForView& loop, const Range& start, const Range& end,
@@ -310,7 +296,7 @@ void ValuesPass::begin_loop(const ForView& loop, std::uint32_t code) {
   const bool counts = loop.variable.kind == ItemKind::Letter;
   const auto start = compute(loop.start);
   if (counts)
-    set_letter(loop.variable.value, start);
+    set_letter(loop.variable.value, {start});
   const auto end = compute(loop.end);
   const auto step = loop.step != nullptr ? compute(*loop.step) : Range::only(1);
   if (!following_)
@@ -318,7 +304,7 @@ void ValuesPass::begin_loop(const ForView& loop, std::uint32_t code) {
   if (!counts)
     return;
   const auto body = rounds(loop, start, end, step);
-  set_letter(loop.variable.value, body);
+  set_letter(loop.variable.value, {body});
   if (loop.variable.value == index_letter && start.constant())
     index_begins_ = start.lo;
   if (!following_)
@@ -352,18 +338,18 @@ bool ValuesPass::end_loop(const NextView& next) {
   now_ = before;
   if (!past)
     return false;
-  set_letter(letter, *past);
+  set_letter(letter, {*past});
   return true;
 }
 
-std::optional<Range> ValuesPass::next_of(const Loop& loop, const LetterFacts& before) {
-  const auto stepped = apply(spec::Operator::Add, before.ranges[loop.letter], loop.step);
+std::optional<Range> ValuesPass::next_of(const Loop& loop, const LetterValues& before) {
+  const auto stepped = apply(spec::Operator::Add, before[loop.letter].range, loop.step);
   const bool fixed = loop.step.lo > 0 || loop.step.hi < 0;
   const auto over = loop.step.lo > 0 ? spec::Relation::Greater : spec::Relation::Less;
   const auto within = fixed ? where(over, Holds::No, stepped, loop.end) : stepped;
   if (within && following_) {
     now_ = before;
-    set_letter(loop.letter, letters_[loop.letter].assigned ? *within : loop.body);
+    set_letter(loop.letter, {letters_[loop.letter].assigned ? *within : loop.body});
     ways_.enter(loop.code + 1, now_);
   }
   return fixed ? where(over, Holds::Yes, stepped, loop.end) : stepped;
@@ -372,7 +358,7 @@ std::optional<Range> ValuesPass::next_of(const Loop& loop, const LetterFacts& be
 void ValuesPass::read(std::span<const Item> variables) {
   for (const auto& variable : variables)
     if (variable.kind == ItemKind::Letter)
-      set_letter(variable.value, data_range_);
+      set_letter(variable.value, {data_range_});
 }
 
 bool ValuesPass::jump(const StatementNode& statement, std::uint32_t code) {
@@ -385,7 +371,7 @@ bool ValuesPass::jump(const StatementNode& statement, std::uint32_t code) {
     return true;
   }
   const auto before = now_;
-  std::optional<LetterFacts> after;
+  std::optional<LetterValues> after;
   for (const auto& way : flow_.jumps_of(flow_.code[code])) {
     if (way.item < statement.items_begin || way.item >= statement.items_end || way.to == none)
       continue;
@@ -397,14 +383,13 @@ bool ValuesPass::jump(const StatementNode& statement, std::uint32_t code) {
     if (!ways_.call(way.to, block_, now_))
       continue;
     if (after)
-      join_into(*after, now_, set_);
+      join_into(*after, now_);
     else
       after = now_;
   }
   now_ = before;
   if (!calls)
     return false;
-  moved_ = set_;
   if (after)
     now_ = *after;
   else if (!following_)

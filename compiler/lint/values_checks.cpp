@@ -69,41 +69,23 @@ void ValuesPass::add_can_be(const Item& value, Message allowed, std::int32_t num
 
 std::optional<Range> ValuesPass::usual_range(const Item& value) const {
   const auto begin = program_.nodes[value.value].first;
-  std::vector<Range> usual;
+  std::vector<Value> usual;
   bool sensors = false;
   for (auto n = begin; n <= value.value; ++n) {
     const auto& node = program_.nodes[n];
-    const auto last = usual.empty() ? Range{} : usual.back();
-    switch (node.kind) {
-    case NodeKind::Number: usual.push_back(known_[n].range); break;
-    case NodeKind::System: {
+    if (node.kind == NodeKind::System) {
       const auto& row = spec::variables[node.what];
       const auto range = usual_values(row);
-      if (sensors || !range || is_compared(row.variable))
+      if (std::exchange(sensors, true) || !range || is_compared(row.variable))
         return std::nullopt;
-      sensors = true;
-      usual.push_back(*range);
-      break;
-    }
-    case NodeKind::Group: usual.push_back(last); break;
-    case NodeKind::Negate: usual.push_back(negate(last)); break;
-    case NodeKind::Call:
-      if (spec::functions[node.what].function != spec::Function::Abs)
-        return std::nullopt;
-      usual.push_back(apply(spec::Function::Abs, last));
-      break;
-    case NodeKind::Binary: {
-      const auto op = static_cast<spec::Operator>(node.what);
-      if (!keeps_ends(node) && op != spec::Operator::Divide)
-        return std::nullopt;
-      usual.push_back(apply(op, usual[program_.nodes[n - 1].first - 1 - begin], last));
-      break;
-    }
-    case NodeKind::Letter:
-    case NodeKind::Indexed: return std::nullopt;
+      usual.push_back({*range});
+    } else if (keeps_usual(node)) {
+      usual.push_back(value_of(program_, n, usual, begin));
+    } else {
+      return std::nullopt;
     }
   }
-  return sensors ? std::optional(usual.back()) : std::nullopt;
+  return sensors ? std::optional(usual.back().range) : std::nullopt;
 }
 
 std::optional<Range> ValuesPass::usual_values(const spec::VariableInfo& row) const {
@@ -186,11 +168,9 @@ void ValuesPass::add_out_of_range(const Item& value, std::string_view word,
   auto& d =
       findings_.add(rules::ValueOutOfRange, value.span,
                     texts::FoundValue(allowed_values(word, parameter), shown(range_of(value))));
-  const auto nodes = nodes_of(program_, value);
-  if (std::any_of(nodes.begin(), nodes.end(), [&](const Node& node) {
-        return node.kind == NodeKind::Letter && (now_.narrowed & bit(node.what)) != 0;
-      }))
+  if (known_[value.value].narrowed)
     d.severity = Severity::Warning; // perhaps no value passes the test
+  const auto nodes = nodes_of(program_, value);
   const bool written = std::all_of(nodes.begin(), nodes.end(), [](const Node& node) {
     return node.kind == NodeKind::Number || node.kind == NodeKind::Negate;
   });
@@ -243,6 +223,14 @@ bool ValuesPass::check_loop_range(const Item& value, std::string_view word,
     d.help = texts::EndLoopAt(parameter.greatest);
   }
   return true;
+}
+
+bool ValuesPass::keeps_usual(const Node& node) {
+  if (node.kind == NodeKind::Call)
+    return spec::functions[node.what].function == spec::Function::Abs;
+  if (node.kind == NodeKind::Binary)
+    return keeps_ends(node) || static_cast<spec::Operator>(node.what) == spec::Operator::Divide;
+  return node.kind != NodeKind::Letter && node.kind != NodeKind::Indexed;
 }
 
 bool ValuesPass::keeps_ends(const Node& node) {
@@ -424,7 +412,7 @@ void ValuesPass::check_indexed(std::span<const Item> variables) {
 void ValuesPass::check_index(Span span) {
   indexed_used_ = true;
   const auto& index = letters_[index_letter];
-  const auto range = now_.ranges[index_letter];
+  const auto range = now_[index_letter].range;
   const auto most = spec::value_of(spec::Limit::IndexedVariables);
   at_risk_ = at_risk_ || range.lo < 1 || range.hi > most;
   if (range.misses(1, most)) {
@@ -442,7 +430,7 @@ void ValuesPass::check_index(Span span) {
       count_from_one(span, d);
     }
     index_begins_.reset();
-  } else if (is_exact(index_letter) && (range.lo < 1 || range.hi > most)) {
+  } else if (now_[index_letter].exact && (range.lo < 1 || range.hi > most)) {
     findings_.add(rules::MayLeaveRange, span,
                   texts::UsedWhileIndexCanBe('Z', 'Y', shown(range), 1, most),
                   texts::KeepWithin('Y', 1, most));
@@ -503,9 +491,9 @@ void ValuesPass::check_answer(const Comparison& comparison) {
   if (!letter || !number_in(program_, comparison.right) ||
       static_cast<spec::Relation>(comparison.relation.value) != spec::Relation::Equal)
     return;
-  if ((now_.dense & bit(*letter)) == 0)
+  if (!now_[*letter].dense)
     return;
-  const auto& range = now_.ranges[*letter];
+  const auto& range = now_[*letter].range;
   const auto& value = range_of(comparison.right);
   if (range.constant() || range.has(value.lo))
     return;

@@ -15,79 +15,42 @@ constexpr auto clearing_slots = [] {
   return slots;
 }();
 
+/// A sensor, given its index in `spec::variables`.
+Value sensor(std::size_t index) {
+  const auto& row = spec::variables[index];
+  return {{row.least, row.greatest}, reaches_ends[index], reaches_ends[index]};
+}
+
 } // namespace
 
 void ValuesPass::compute(std::uint32_t begin, std::uint32_t end) {
   for (auto n = begin; n < end; ++n) {
     const auto& node = program_.nodes[n];
-    switch (node.kind) {
-    case NodeKind::Number:
-      know(n, node.overflow ? Range{} : Range::only(node.value), !node.overflow);
-      break;
-    case NodeKind::Letter:
-      if (!following_)
-        note_use(node);
-      know(n, now_.ranges[node.what], is_exact(node.what));
-      break;
-    case NodeKind::Indexed:
-      if (!following_)
-        check_index(node.span);
-      known_[n] = {};
-      break;
-    case NodeKind::System: {
-      const auto& row = spec::variables[node.what];
-      if (!following_ && row.access == spec::Access::ReadClears)
-        note_clearing(node, row);
-      know(n, {row.least, row.greatest}, reaches_ends[node.what]);
-      break;
-    }
-    case NodeKind::Group: known_[n] = known_[n - 1]; break;
-    case NodeKind::Negate:
-    case NodeKind::Binary:
-    case NodeKind::Call: compute_operation(node, n); break;
-    }
-  }
-}
-
-void ValuesPass::compute_operation(const Node& node, std::uint32_t index) {
-  const auto right = index - 1; // or the only operand
-  if (node.kind == NodeKind::Negate)
-    return know(index, negate(known_[right].range), known_[right].exact);
-  if (node.kind == NodeKind::Call) {
-    know(index, apply(spec::functions[node.what].function, known_[right].range),
-         known_[right].exact);
+    if (node.kind == NodeKind::Letter)
+      known_[n] = now_[node.what];
+    else if (node.kind == NodeKind::System)
+      known_[n] = sensor(node.what);
+    else
+      known_[n] = value_of(program_, n, known_);
     if (!following_)
-      check_call(node, index);
-    return;
+      check_node(node, n);
   }
-  const auto left = program_.nodes[right].first - 1;
-  know(index,
-       apply(static_cast<spec::Operator>(node.what), known_[left].range, known_[right].range),
-       is_exact_sum(node, right));
-  if (!following_)
-    check_binary(node, index);
 }
 
-bool ValuesPass::is_exact_sum(const Node& node, std::uint32_t right) const {
-  const auto left = program_.nodes[right].first - 1;
-  if (!known_[left].exact || !known_[right].exact)
-    return false;
-  const auto& [a, b] = std::pair{known_[left].range, known_[right].range};
-  switch (static_cast<spec::Operator>(node.what)) {
-  case spec::Operator::Add:
-  case spec::Operator::Subtract:
-  case spec::Operator::Multiply: return a.constant() || b.constant();
-  case spec::Operator::Divide: return b.constant();
-  case spec::Operator::Remainder: // by two turns or more, whatever the steps
-    return a.constant()
-               ? b.constant()
-               : b.constant() && (std::int64_t{a.hi} - a.lo) / 2 >= std::abs(std::int64_t{b.lo});
-  case spec::Operator::ShiftLeft:
-  case spec::Operator::ShiftRight:
-  case spec::Operator::And:
-  case spec::Operator::Or: return a.constant() && b.constant();
+void ValuesPass::check_node(const Node& node, std::uint32_t index) {
+  switch (node.kind) {
+  case NodeKind::Letter: note_use(node); break;
+  case NodeKind::Indexed: check_index(node.span); break;
+  case NodeKind::System:
+    if (const auto& row = spec::variables[node.what]; row.access == spec::Access::ReadClears)
+      note_clearing(node, row);
+    break;
+  case NodeKind::Call: check_call(node, index); break;
+  case NodeKind::Binary: check_binary(node, index); break;
+  case NodeKind::Number:
+  case NodeKind::Group:
+  case NodeKind::Negate: break;
   }
-  return false;
 }
 
 void ValuesPass::note_risk(std::uint32_t root) {

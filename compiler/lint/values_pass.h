@@ -44,12 +44,6 @@ struct DataSet {
   const StatementNode* unread = nullptr; ///< the first `data` not read yet
 };
 
-/// The analysis state of an expression node.
-struct Known {
-  Range range;
-  bool exact = false; ///< both ends of the range are values that occur
-};
-
 /// The state of a `for`, over all its executions.
 struct Loop {
   std::uint32_t code = 0;   ///< a line of code
@@ -90,9 +84,7 @@ private:
   /// Forgets the values of all letters.
   void forget_letters();
 
-  void set_letter(std::uint32_t index, Range range) { set_letter(index, range, 0, 0); }
-  /// `exact` and `dense` are 1 or 0.
-  void set_letter(std::uint32_t index, Range range, LetterSet exact, LetterSet dense);
+  void set_letter(std::uint32_t index, const Value& value);
 
   // ---- paths
 
@@ -133,7 +125,7 @@ private:
   bool followed_or_following() const { return following_ || followed_; }
 
   /// Returns to the body of a loop; gives the range of its letter after the loop, if it can end.
-  std::optional<Range> next_of(const Loop& loop, const LetterFacts& before);
+  std::optional<Range> next_of(const Loop& loop, const LetterValues& before);
 
   void read(std::span<const Item> variables);
 
@@ -161,6 +153,7 @@ private:
   /// The usual range of an expression of numbers and one sensor in a program that drives, if known
   /// for that sensor. Nothing if the program compares the sensor: then it may know its range.
   std::optional<Range> usual_range(const Item& value) const;
+  static bool keeps_usual(const Node& node);
   std::optional<Range> usual_values(const spec::VariableInfo& row) const;
   bool is_compared(spec::Variable variable) const;
 
@@ -233,13 +226,8 @@ private:
     return range_of(item);
   }
 
-  void compute_operation(const Node& node, std::uint32_t index);
-
-  void know(std::uint32_t index, Range range, bool exact) { known_[index] = {range, exact}; }
-
-  bool is_exact(std::uint32_t letter) const { return (now_.exact & bit(letter)) != 0; }
-
-  bool is_exact_sum(const Node& node, std::uint32_t right) const;
+  /// Reports the mistakes of a node that has just been computed.
+  void check_node(const Node& node, std::uint32_t index);
 
   /// Notes that an expression can have a value that stops the program, unless numbers and sensors
   /// alone decide that: then a trial knows no more.
@@ -266,21 +254,20 @@ private:
   const Target& target_;
   Findings& findings_;
   std::array<Letter, most_letters> letters_{};
-  std::vector<Known> known_; ///< by node
+  std::vector<Value> known_; ///< by node
 
   // the current state
-  LetterFacts now_;
-  LetterSet set_ = 0;   ///< letters with an assignment
-  LetterFacts unknown_; ///< the unknown state, except that letters without an assignment are 0
+  LetterValues now_;
+  LetterSet set_ = 0;    ///< letters with an assignment
+  LetterValues unknown_; ///< the unknown state, except that letters without an assignment are 0
   LetterFlow ways_;
   std::vector<Loop> loops_; ///< loops entered so far
   Range data_range_;        ///< of all `data` values
   std::uint32_t block_ = 0; ///< the line where the current run of lines began
   LetterSet tested_ = 0;    ///< letters narrowed by the condition of this line
-  LetterSet moved_ = 0;     ///< letters changed in a branch of this line
   bool following_ = false;
   bool followed_ = false;
-  bool at_risk_ = false; ///< some value may stop the program
+  bool at_risk_ = false;                     ///< some value may stop the program
   std::optional<std::int32_t> index_begins_; ///< start of the enclosing loop if it counts in `Y`
 
   DataSet data_;

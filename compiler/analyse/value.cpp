@@ -1,0 +1,97 @@
+#include "compiler/analyse/value.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+namespace orb::compiler {
+namespace {
+
+/// True if the remainders of all values of a dense range fill the range of the result.
+bool fills_remainders(const Range& left, std::int32_t divisor) {
+  const auto most = std::abs(std::int64_t{divisor}) - 1;
+  return std::int64_t{left.hi} - left.lo >= most && (left.lo >= 0 || left.lo <= -most) &&
+         (left.hi <= 0 || left.hi >= most);
+}
+
+} // namespace
+
+Value join(const Value& left, const Value& right) {
+  const auto range = join(left.range, right.range);
+  const bool whole_left = left.range == range;
+  const bool whole_right = right.range == range;
+  const bool exact =
+      (left.exact && right.exact) || (left.exact && whole_left) || (right.exact && whole_right);
+  // Two ranges may leave a gap between them.
+  const bool dense = exact && ((left.dense && whole_left) || (right.dense && whole_right));
+  return {range, exact, dense, left.driven || right.driven, left.narrowed || right.narrowed};
+}
+
+Value result_of(spec::Operator op, const Value& left, const Value& right) {
+  Value result{apply(op, left.range, right.range)};
+  result.narrowed = left.narrowed || right.narrowed;
+  const bool by_number = right.range.constant();
+  if (result.range.constant()) {
+    result.exact = result.dense = true;
+    return result;
+  }
+  result.driven = left.driven || right.driven;
+  const bool exact = left.exact && right.exact && (left.range.constant() || by_number);
+  const bool dense = exact && left.dense && right.dense;
+  switch (op) {
+  case spec::Operator::Add:
+  case spec::Operator::Subtract:
+    result.exact = exact;
+    result.dense = dense;
+    break;
+  case spec::Operator::Multiply: result.exact = exact; break;
+  case spec::Operator::Divide:
+    result.exact = exact && by_number;
+    result.dense = dense && by_number;
+    break;
+  case spec::Operator::Remainder:
+    result.exact = result.dense =
+        dense && by_number && fills_remainders(left.range, right.range.lo);
+    break;
+  case spec::Operator::ShiftLeft:
+  case spec::Operator::ShiftRight:
+  case spec::Operator::And:
+  case spec::Operator::Or: break;
+  }
+  return result;
+}
+
+Value result_of(spec::Function function, const Value& operand) {
+  auto result = operand;
+  result.range = apply(function, operand.range);
+  if (function == spec::Function::Rnd)
+    result.dense = operand.exact;
+  else if (function == spec::Function::Abs && operand.range.has(0))
+    result.exact = operand.dense; // otherwise 0 need not occur
+  if (result.range.constant()) {
+    result.exact = result.dense = true;
+    result.driven = false;
+  }
+  return result;
+}
+
+Value value_of(const Program& program, std::uint32_t node, std::span<const Value> known,
+               std::uint32_t first) {
+  const auto& one = program.nodes[node];
+  const auto last = node - first - 1; // the right operand, or the only one
+  switch (one.kind) {
+  case NodeKind::Number: return one.overflow ? Value{} : Value::only(one.value);
+  case NodeKind::Group: return known[last];
+  case NodeKind::Negate: return result_of(spec::Operator::Subtract, Value::only(0), known[last]);
+  case NodeKind::Call: return result_of(spec::functions[one.what].function, known[last]);
+  case NodeKind::Binary:
+    return result_of(static_cast<spec::Operator>(one.what),
+                     known[program.nodes[node - 1].first - first - 1], known[last]);
+  case NodeKind::Letter:
+  case NodeKind::Indexed:
+  case NodeKind::System: break;
+  }
+  return {};
+}
+
+} // namespace orb::compiler
