@@ -134,29 +134,25 @@ Range apply(spec::Function function, const Range& operand) {
   return {};
 }
 
-std::optional<Range> where(spec::Relation relation, Holds holds, Range left, Range right) {
-  std::int64_t lo = left.lo;
-  std::int64_t hi = left.hi;
-  const bool yes = holds == Holds::Yes;
-  switch (relation) {
-  case spec::Relation::Less:
-    yes ? hi = std::min(hi, std::int64_t{right.hi} - 1) : lo = std::max<std::int64_t>(lo, right.lo);
-    break;
-  case spec::Relation::Greater:
-    yes ? lo = std::max(lo, std::int64_t{right.lo} + 1) : hi = std::min<std::int64_t>(hi, right.hi);
-    break;
-  case spec::Relation::Equal:
-  case spec::Relation::NotEqual:
-    if (yes == (relation == spec::Relation::Equal)) {
-      lo = std::max<std::int64_t>(lo, right.lo);
-      hi = std::min<std::int64_t>(hi, right.hi);
-    } else if (right.constant()) {
-      lo += lo == right.lo ? 1 : 0;
-      hi -= hi == right.lo ? 1 : 0;
-    }
-    break;
-  }
-  return lo > hi ? std::nullopt : std::optional(narrow(lo, hi));
+std::optional<Range> where(Orders orders, Range left, Range right) {
+  std::optional<Range> found;
+  const auto add = [&](std::int64_t lo, std::int64_t hi) {
+    if (lo <= hi)
+      found = found ? join(*found, narrow(lo, hi)) : narrow(lo, hi);
+  };
+  if (has(orders, Orders::Less))
+    add(left.lo, std::min<std::int64_t>(left.hi, std::int64_t{right.hi} - 1));
+  if (has(orders, Orders::Equal))
+    add(std::max(left.lo, right.lo), std::min(left.hi, right.hi));
+  if (has(orders, Orders::Greater))
+    add(std::max<std::int64_t>(left.lo, std::int64_t{right.lo} + 1), left.hi);
+  return found;
+}
+
+std::optional<bool> answer_of(Orders orders, Range left, Range right) {
+  if (!where(orders, left, right))
+    return false;
+  return where(opposite(orders), left, right) ? std::nullopt : std::optional(true);
 }
 
 Message allowed_values(std::string_view word, const spec::Parameter& parameter) {

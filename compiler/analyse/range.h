@@ -1,6 +1,7 @@
 #pragma once
 
 #include "base/message.h"
+#include "compiler/analyse/orders.h"
 #include "spec/basic.h"
 
 #include <algorithm>
@@ -44,10 +45,11 @@ Range apply(spec::Operator op, const Range& left, const Range& right);
 /// The possible results of a function for operands that it accepts.
 Range apply(spec::Function function, const Range& operand);
 
-/// Selects if a comparison holds. Narrows its left side to the values for which it does; nothing if
-/// there are none.
-enum class Holds : std::uint8_t { Yes, No };
-std::optional<Range> where(spec::Relation relation, Holds holds, Range left, Range right);
+/// The values of the left side of a comparison for which it can hold; nothing if there are none.
+std::optional<Range> where(Orders orders, Range left, Range right);
+
+/// The result of a comparison if it is the same for all values.
+std::optional<bool> answer_of(Orders orders, Range left, Range right);
 
 /// The likely intended value for a parameter that does not take `value`: the same heading within
 /// one turn, or the nearest brightness or speed; nothing if that is ambiguous.

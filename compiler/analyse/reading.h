@@ -1,5 +1,6 @@
 #pragma once
 
+#include "compiler/analyse/orders.h"
 #include "compiler/text/program.h"
 
 #include <optional>
@@ -59,28 +60,41 @@ inline std::span<const Node> nodes_of(const Program& program, const Item& item) 
   return {program.nodes.data() + first, item.value - first + 1};
 }
 
-constexpr spec::Relation mirrored(spec::Relation relation) {
-  if (relation == spec::Relation::Less)
-    return spec::Relation::Greater;
-  return relation == spec::Relation::Greater ? spec::Relation::Less : relation;
+/// Selects if a comparison holds.
+enum class Holds : std::uint8_t { Yes, No };
+
+/// The orders of the two sides for which a comparison holds, or for which it does not.
+inline Orders orders_of(const Comparison& comparison, Holds holds = Holds::Yes) {
+  const auto orders = orders_of(static_cast<spec::Relation>(comparison.relation.value));
+  return holds == Holds::Yes ? orders : opposite(orders);
 }
 
-/// A test `sensor relation number`, with the sides in either order.
+/// A comparison of some value with a number.
+struct Bound {
+  Orders orders;
+  std::int64_t number;
+
+  bool holds(std::int64_t value) const { return compiler::holds(orders, value, number); }
+};
+
+/// A test of a sensor with a number, with the sides in either order.
 struct SensorTest {
   spec::Variable sensor;
-  spec::Relation relation;
+  Orders orders;
   std::int32_t number;
   const Item* at; ///< the number's item
+
+  bool holds(std::int64_t value) const { return compiler::holds(orders, value, number); }
 };
 
 inline std::optional<SensorTest> sensor_test(const Program& program, const Comparison& comparison) {
-  const auto relation = static_cast<spec::Relation>(comparison.relation.value);
+  const auto orders = orders_of(comparison);
   if (const auto number = constant_in(program, comparison.right))
     if (const auto sensor = sensor_in(program, comparison.left))
-      return SensorTest{*sensor, relation, *number, &comparison.right};
+      return SensorTest{*sensor, orders, *number, &comparison.right};
   if (const auto number = constant_in(program, comparison.left))
     if (const auto sensor = sensor_in(program, comparison.right))
-      return SensorTest{*sensor, mirrored(relation), *number, &comparison.left};
+      return SensorTest{*sensor, mirrored(orders), *number, &comparison.left};
   return std::nullopt;
 }
 

@@ -138,24 +138,25 @@ private:
     }
     auto& counter = now_.letters[loop.letter];
     counter = result_of(spec::Operator::Add, counter, Value::only(loop.step));
-    const auto over = loop.step > 0 ? spec::Relation::Greater : spec::Relation::Less;
-    if (!where(over, Holds::Yes, counter.range, loop.end.range))
-      return loop.body;
-    if (where(over, Holds::No, counter.range, loop.end.range))
+    const auto over = loop.step > 0 ? Orders::Greater : Orders::Less;
+    const auto is_over = answer_of(over, counter.range, loop.end.range);
+    if (!is_over)
       return leave_or_not(over);
+    if (!*is_over)
+      return loop.body;
     now_.loops.pop_back();
     return line_ + 1;
   }
 
   /// Splits at a `next` whose end value is unknown.
-  std::uint32_t leave_or_not(spec::Relation over) {
+  std::uint32_t leave_or_not(Orders over) {
     const auto& open = now_.loops.back();
     const auto counter = now_.letters[open.letter].range;
     if (!open.end.exact || !counter.constant() || is_settled(open.end.driven))
       return none;
     auto stays = now_;
     auto& loop = stays.loops.back();
-    loop.end.range = *where(mirrored(over), Holds::No, loop.end.range, counter);
+    loop.end.range = *where(opposite(mirrored(over)), loop.end.range, counter);
     loop.end.exact = loop.end.dense;
     stays.at = loop.body;
     auto leaves = now_;
@@ -329,25 +330,18 @@ private:
   }
 
   std::optional<bool> truth(const Comparison& comparison) {
-    const auto relation = static_cast<spec::Relation>(comparison.relation.value);
     const auto left = value(comparison.left).range;
-    const auto right = value(comparison.right).range;
-    if (!where(relation, Holds::No, left, right))
-      return true;
-    if (!where(relation, Holds::Yes, left, right))
-      return false;
-    return std::nullopt;
+    return answer_of(orders_of(comparison), left, value(comparison.right).range);
   }
 
   /// True if the comparison just computed can go both ways, or its result is known.
   bool is_open(const Comparison& comparison) const {
-    const auto relation = static_cast<spec::Relation>(comparison.relation.value);
+    const auto orders = orders_of(comparison);
     const auto& left = known_[comparison.left.value];
     const auto& right = known_[comparison.right.value];
-    if (!where(relation, Holds::No, left.range, right.range) ||
-        !where(relation, Holds::Yes, left.range, right.range))
+    if (answer_of(orders, left.range, right.range))
       return true;
-    const bool equals = relation == spec::Relation::Equal || relation == spec::Relation::NotEqual;
+    const bool equals = orders == Orders::Equal || orders == Orders::NotEqual;
     return equals ? left.dense && right.dense : left.exact && right.exact;
   }
 
@@ -382,11 +376,11 @@ private:
   }
 
   bool assume(const Comparison& comparison, Holds holds) {
-    const auto relation = static_cast<spec::Relation>(comparison.relation.value);
+    const auto orders = orders_of(comparison, holds);
     const auto left = known_[comparison.left.value].range;
     const auto right = known_[comparison.right.value].range;
-    const auto left_where = where(relation, holds, left, right);
-    const auto right_where = where(mirrored(relation), holds, right, left);
+    const auto left_where = where(orders, left, right);
+    const auto right_where = where(mirrored(orders), right, left);
     if (!left_where || !right_where)
       return false;
     narrow(comparison.left, *left_where);
@@ -396,9 +390,7 @@ private:
       bind(comparison.right);
     }
     // Excluding an inner value leaves a gap.
-    const bool equal = (relation == spec::Relation::Equal) == (holds == Holds::Yes);
-    const bool names = relation == spec::Relation::Equal || relation == spec::Relation::NotEqual;
-    if (names && !equal && *left_where == left)
+    if (orders == Orders::NotEqual && *left_where == left)
       for (const auto* side : {&comparison.left, &comparison.right})
         if (const auto letter = letter_in(program_, *side))
           now_.letters[*letter].dense = now_.letters[*letter].range.constant();

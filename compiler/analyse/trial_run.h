@@ -3,6 +3,7 @@
 #include "base/diagnostic.h"
 #include "compiler/analyse/flow.h"
 #include "compiler/analyse/range.h"
+#include "compiler/analyse/reading.h"
 #include "compiler/text/program.h"
 
 #include <cstdint>

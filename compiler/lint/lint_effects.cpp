@@ -1,8 +1,7 @@
 #include "base/text/text.h"
-#include "compiler/lint/lint_passes.h"
+#include "compiler/lint/line_pass.h"
 
 #include "compiler/analyse/letter_flow.h"
-#include "compiler/analyse/reading.h"
 #include "compiler/text/rules.h"
 #include "spec/colours.h"
 #include "spec/limits.h"
@@ -72,11 +71,9 @@ Motion join(Motion a, Motion b) {
 /// Finds programs that run without an error but not as intended: colours and rolls that nobody can
 /// see, a ball that is left driving. Large because it makes three searches: for what is never seen,
 /// what drives on, and what grows without limit.
-class EffectsPass {
+class EffectsPass : private LinePass {
 public:
-  EffectsPass(const Program& program, const Flow& flow, Findings& findings)
-      : program_(program), flow_(flow), findings_(findings),
-        size_(static_cast<std::uint32_t>(flow.code.size())) {}
+  using LinePass::LinePass;
 
   void run() {
     for (const auto kind : {Statement::Rgb, Statement::Ledc, Statement::BackLed, Statement::Goroll})
@@ -89,10 +86,6 @@ public:
   }
 
 private:
-  const StatementNode& statement_of(std::uint32_t code) const {
-    return program_.statements[flow_.code[code].statement];
-  }
-
   // ---- what is never seen
 
   /// What happens to a visible effect.
@@ -344,12 +337,8 @@ private:
   Motion step(const StatementNode& statement, Motion before, std::uint32_t at) const {
     if (statement.error || is_foreign_hand(statement.kind))
       return unknown();
-    if (statement.kind == Statement::Let)
-      return program_.as<LetView>(statement).variable.kind == ItemKind::System &&
-                     program_.as<LetView>(statement).variable.value ==
-                         static_cast<std::uint32_t>(spec::Variable::Ctrl)
-                 ? unknown()
-                 : before;
+    if (sets(statement, spec::Variable::Ctrl))
+      return unknown();
     if (statement.kind != Statement::Goroll)
       return before;
     const auto items = program_.items_of(statement);
@@ -605,10 +594,6 @@ private:
     d.fix = single_fix(d.help, sum.span, bounded, Safety::Unsafe);
   }
 
-  const Program& program_;
-  const Flow& flow_;
-  Findings& findings_;
-  std::uint32_t size_;
   std::array<std::optional<std::int32_t>, most_letters> settled_{}; ///< letters with a constant
                                                                     ///< value
   std::vector<Motion> motion_; ///< state before each line of code

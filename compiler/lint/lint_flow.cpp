@@ -1,4 +1,4 @@
-#include "compiler/lint/lint_passes.h"
+#include "compiler/lint/line_pass.h"
 #include "compiler/text/rules.h"
 #include "spec/limits.h"
 
@@ -10,11 +10,9 @@ namespace {
 
 /// Finds unreachable lines, faulty subroutines and busy loops. Large because each of these rules
 /// has its own members, and all of them share the marks of the reachable lines.
-class FlowRules {
+class FlowRules : private LinePass {
 public:
-  FlowRules(const Program& program, const Flow& flow, Findings& findings)
-      : program_(program), flow_(flow), findings_(findings),
-        size_(static_cast<std::uint32_t>(flow.code.size())) {}
+  using LinePass::LinePass;
 
   void run() {
     if (size_ == 0)
@@ -34,17 +32,8 @@ private:
   static constexpr std::uint8_t main = 2;   ///< can run outside any subroutine
   static constexpr std::uint8_t inside = 4; ///< can run inside a subroutine
 
-  const StatementNode& statement(std::uint32_t code) const {
-    return program_.statements[flow_.code[code].statement];
-  }
   bool is(std::uint8_t mark, std::uint32_t code) const { return (marks_[code] & mark) == mark; }
   std::uint32_t line_of(std::uint32_t code) const { return flow_.code[code].line; }
-  std::uint32_t number_of(std::uint32_t code) const { return program_.lines[line_of(code)].number; }
-
-  /// The statement of a line and those in its branches.
-  std::span<const StatementNode> whole(std::uint32_t code) const {
-    return program_.whole(statement(code));
-  }
 
   std::span<const Flow::Place> returns() const { return flow_.all(spec::Statement::Return); }
   bool has_call() const {
@@ -154,10 +143,10 @@ private:
       if (!runs_in || !returns_from(i))
         continue;
       reported = true;
-      auto& d = findings_.add(rules::FallIntoSubroutine, statement(i - 1).span,
+      auto& d = findings_.add(rules::FallIntoSubroutine, statement_of(i - 1).span,
                               texts::FallsIntoSubroutine(number_of(i)), texts::AddEndAfterThis());
       add_above(d, i, "end");
-      add_note(d, statement(i).span, texts::SubroutineBeginsHere());
+      add_note(d, statement_of(i).span, texts::SubroutineBeginsHere());
     }
     if (reported)
       return;
@@ -191,10 +180,10 @@ private:
           number_of(first) % round_number != 0 || number_of(next) % round_number != 0 ||
           !stands_apart(first, next) || !acts_alone(first, next) || !falls_to_return(next))
         continue;
-      auto& d = findings_.add(rules::FallIntoSubroutine, statement(next - 1).span,
+      auto& d = findings_.add(rules::FallIntoSubroutine, statement_of(next - 1).span,
                               texts::RunsOn(number_of(first), number_of(next)));
       add_above(d, next, "return");
-      add_note(d, statement(next).span, texts::SubroutineBeginsHere());
+      add_note(d, statement_of(next).span, texts::SubroutineBeginsHere());
     }
   }
 
@@ -284,7 +273,7 @@ private:
     auto last = jump.to;
     while (last + 1 < size_ && flow_.code[last].falls && !flow_.code[last + 1].called)
       ++last;
-    const auto& end = statement(last);
+    const auto& end = statement_of(last);
     const bool ends = flow_.code[last].ends;
     if (ends && whole(from).size() > 1)
       return; // ends the program on purpose, after an error
@@ -334,7 +323,7 @@ private:
       if (least[i] == most)
         for (const auto& jump : flow_.jumps_of(flow_.code[i]))
           if (jump.call) {
-            findings_.add(rules::GosubDepth, statement(i).span, texts::CallsAreOpen(most),
+            findings_.add(rules::GosubDepth, statement_of(i).span, texts::CallsAreOpen(most),
                           texts::InlineSubroutine());
             break;
           }
@@ -357,7 +346,7 @@ private:
     }
     for (std::uint32_t r = 0; r < routines_.size(); ++r)
       if (calls_itself(r, calls))
-        findings_.add(rules::GosubRecursion, statement(routines_[r]).span,
+        findings_.add(rules::GosubRecursion, statement_of(routines_[r]).span,
                       texts::CallsItself(number_of(routines_[r])), texts::UseALoop());
   }
 
@@ -389,7 +378,7 @@ private:
   /// Finds a `goto` back to a line without an exit or a wait between.
   void check_busy_loops() {
     for (const auto& jump : flow_.jumps) {
-      const auto& node = statement(jump.from);
+      const auto& node = statement_of(jump.from);
       if (jump.to > jump.from || jump.from - jump.to > longest_loop ||
           node.kind != spec::Statement::Goto || !is(reached, jump.from) ||
           leaves_or_waits(jump.to, jump.from))
@@ -402,7 +391,7 @@ private:
 
   bool leaves_or_waits(std::uint32_t first, std::uint32_t last) const {
     for (auto i = first; i <= last; ++i) {
-      if (statement(i).error)
+      if (statement_of(i).error)
         return true;
       for (const auto& jump : flow_.jumps_of(flow_.code[i])) {
         if (jump.call ? has_wait() : (jump.to < first || jump.to > last))
@@ -442,10 +431,6 @@ private:
   /// linter must not take minutes.
   static constexpr std::size_t most_routines = 256;
 
-  const Program& program_;
-  const Flow& flow_;
-  Findings& findings_;
-  std::uint32_t size_;
   std::vector<std::uint32_t> routines_; ///< called lines, ascending
   std::vector<std::uint32_t> found_;    ///< result of spread()
   std::vector<std::uint32_t> open_;     ///< work list of spread()

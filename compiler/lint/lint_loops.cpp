@@ -1,5 +1,5 @@
 #include "compiler/analyse/letter_flow.h"
-#include "compiler/lint/lint_passes.h"
+#include "compiler/lint/line_pass.h"
 
 #include "compiler/text/rules.h"
 #include "spec/limits.h"
@@ -95,11 +95,9 @@ struct PartState {
 
 /// Finds each `for` and `next` that do not belong together. Large because it looks twice, in text
 /// order and along all paths.
-class LoopRules {
+class LoopRules : private LinePass {
 public:
-  LoopRules(const Program& program, const Flow& flow, Findings& findings)
-      : program_(program), flow_(flow), findings_(findings),
-        size_(static_cast<std::uint32_t>(flow.code.size())) {}
+  using LinePass::LinePass;
 
   void run() {
     if (nest_in_text())
@@ -114,12 +112,6 @@ public:
   }
 
 private:
-  const StatementNode& statement(std::uint32_t code) const {
-    return program_.statements[flow_.code[code].statement];
-  }
-  std::uint32_t number_of(std::uint32_t code) const {
-    return program_.lines[flow_.code[code].line].number;
-  }
   std::uint32_t counter_of(const StatementNode& node) const {
     return variable_of(program_.as<ForView>(node).variable);
   }
@@ -151,8 +143,8 @@ private:
       around[i] = innermost;
       if (!flow_.code[i].loops)
         continue;
-      const auto& node = statement(i);
-      const auto variable = innermost == none ? none : counter_of(statement(innermost));
+      const auto& node = statement_of(i);
+      const auto variable = innermost == none ? none : counter_of(statement_of(innermost));
       if (node.kind == spec::Statement::For && count < open.size() &&
           counter_of(node) != variable) {
         open[count++] = std::exchange(innermost, i);
@@ -189,17 +181,17 @@ private:
   }
 
   void read(Part& part) {
-    const auto whole = program_.whole(statement(part.code));
-    for (const auto& node : whole) {
+    const auto all = whole(part.code);
+    for (const auto& node : all) {
       if (is(node, spec::Statement::Return)) {
         part.returns = true;
       } else if (is(node, spec::Statement::For)) {
         part.variable = counter_of(node);
-        part.effect = whole.size() > 1 ? Effect::Unsure : Effect::Opens;
+        part.effect = all.size() > 1 ? Effect::Unsure : Effect::Opens;
         set_ |= bit(part.variable);
       } else if (is(node, spec::Statement::Next)) {
         part.variable = stepped_by(node);
-        part.effect = whole.size() > 1 ? Effect::Unsure : Effect::Closes;
+        part.effect = all.size() > 1 ? Effect::Unsure : Effect::Closes;
         stepped_ |= bit(part.variable);
       }
     }
@@ -255,7 +247,7 @@ private:
           auto& d =
               findings_.add(rules::JumpOutOfFor, program_.items[jump.item].span,
                             texts::OutsideTheLoop(number_of(jump.to)), texts::SetToEndValue());
-          add_note(d, statement(pairs_[pair].begin).span, texts::TheLoop());
+          add_note(d, statement_of(pairs_[pair].begin).span, texts::TheLoop());
         }
     }
   }
@@ -430,7 +422,7 @@ private:
   // ---- reporting
 
   void report(const Part& part) {
-    const auto& node = statement(part.code);
+    const auto& node = statement_of(part.code);
     if (part.effect == Effect::Closes && (set_ & bit(part.variable)) == 0) {
       add_next_of_nobody(part);
       return;
@@ -462,7 +454,7 @@ private:
   /// Reports a `next Q` without any `for Q`. If exactly one loop is open on every path and has no
   /// `next`, this one belongs to it.
   void add_next_of_nobody(const Part& part) {
-    const auto& node = statement(part.code);
+    const auto& node = statement_of(part.code);
     auto& d =
         findings_.add(rules::NextWithoutFor, node.span,
                       texts::ThereIsNo(fmt::format("for {}", spec::letter_name(part.variable))));
@@ -493,7 +485,7 @@ private:
     for (const auto* call : calls) {
       const auto& more = d.notes.empty() ? texts::AsLineCalls : texts::AndLineCalls;
       d.message = more(d.message, number_of(call->from), number_of(call->entry));
-      add_note(d, statement(call->from).span, texts::CalledHere());
+      add_note(d, statement_of(call->from).span, texts::CalledHere());
     }
     return d;
   }
@@ -512,10 +504,6 @@ private:
   /// linter must not take minutes.
   static constexpr std::size_t most_calls = 64;
 
-  const Program& program_;
-  const Flow& flow_;
-  Findings& findings_;
-  std::uint32_t size_;
   LetterSet set_ = 0;                ///< letters of a `for`
   LetterSet stepped_ = 0;            ///< letters of a `next`
   std::vector<Part> parts_;          ///< in text order

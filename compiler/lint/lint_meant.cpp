@@ -1,6 +1,5 @@
 #include "compiler/analyse/letter_flow.h"
-#include "compiler/analyse/reading.h"
-#include "compiler/lint/lint_passes.h"
+#include "compiler/lint/line_pass.h"
 #include "compiler/lint/sensor_tests.h"
 #include "compiler/lint/sums.h"
 #include "compiler/text/rules.h"
@@ -16,7 +15,6 @@
 namespace orb::compiler {
 namespace {
 
-using spec::Relation;
 using spec::Statement;
 using spec::Variable;
 
@@ -25,11 +23,10 @@ constexpr std::int32_t quarter = full_turn / 4;
 /// Finds programs that run without an error but cannot be intended: loops that end at once or
 /// never, tests that the ball's own path decides. Large because each rule recognises its own
 /// pattern of lines.
-class MeantPass {
+class MeantPass : private LinePass {
 public:
   MeantPass(const Program& program, const Flow& flow, const Settings& settings, Findings& findings)
-      : program_(program), flow_(flow), settings_(settings), findings_(findings),
-        size_(static_cast<std::uint32_t>(flow.code.size())) {}
+      : LinePass(program, flow, findings), settings_(settings) {}
 
   void run() {
     for (const auto& place : flow_.all(Statement::Goroll))
@@ -51,19 +48,7 @@ public:
   }
 
 private:
-  const StatementNode& statement_of(std::uint32_t code) const {
-    return program_.statements[flow_.code[code].statement];
-  }
   std::optional<std::int32_t> number(const Item& item) const { return constant_in(program_, item); }
-  /// True if a line is one statement that falls through.
-  bool is_plain(std::uint32_t code) const {
-    const auto& statement = statement_of(code);
-    return !statement.error && statement.then_branch == none && flow_.code[code].falls &&
-           flow_.jumps_of(flow_.code[code]).empty();
-  }
-  static Span span_of(const Comparison& comparison) {
-    return {comparison.left.span.begin, comparison.right.span.end};
-  }
 
   // ---- a speed tested before the ball can have started to move
 
@@ -102,8 +87,7 @@ private:
     // A loop that is left at once, at its end or from within; where the test continues it, it does
     // wait.
     const bool back = jumps.front().to <= at;
-    if (Bound{test->relation, test->number}.holds(0) == back ||
-        (!back && jumps.front().to <= end_of_loop(at)))
+    if (test->holds(0) == back || (!back && jumps.front().to <= end_of_loop(at)))
       return;
     findings_.add(rules::EarlySensor, span_of(condition.first), texts::TestedAtRest(),
                   texts::WaitBeforeIt("delay 500"));
@@ -141,12 +125,6 @@ private:
       add_note(d, statement_of(raw).span, texts::TurnedOffHere());
       return;
     }
-  }
-
-  bool sets(const StatementNode& statement, Variable variable) const {
-    return statement.kind == Statement::Let &&
-           program_.as<LetView>(statement).variable.kind == ItemKind::System &&
-           program_.as<LetView>(statement).variable.value == static_cast<std::uint32_t>(variable);
   }
 
   // ---- loops that count
@@ -251,7 +229,7 @@ private:
       }
     const auto value =
         only != nullptr && only->value != nullptr ? number(*only->value) : std::nullopt;
-    if (!value || Bound{static_cast<Relation>(test.relation.value), *limit}.holds(*value))
+    if (!value || Bound{orders_of(test), *limit}.holds(*value))
       return;
     const auto name = program_.text_of(test.left.span);
     auto& d = findings_.add(rules::LoopRunsOnce, statement_of(only->code).span,
@@ -263,28 +241,19 @@ private:
   /// A timer that counts down past the value that a loop waits for, and stays at 0.
   void check_timer(const Comparison& comparison, const Flow::Jump& jump) {
     const auto test = sensor_test(program_, comparison);
-    if (!test || !is_timer(test->sensor) || jump.to == 0)
+    if (!test || !is_timer(test->sensor))
       return;
     for (auto i = jump.to; i < jump.from; ++i)
       if (sets(statement_of(i), test->sensor))
         return;
-    constexpr std::uint32_t far = 8;
-    for (auto i = jump.to; i-- > 0 && jump.to - i < far;) {
-      if (!is_plain(i) || (flow_.code[i].target && i + 1 < jump.to))
-        return;
-      if (!sets(statement_of(i), test->sensor))
-        continue;
-      const auto from = number(program_.as<LetView>(statement_of(i)).expression);
-      // A timer equals a number only for an instant.
-      const Bound bound{test->relation, test->number};
-      if (bound.relation != Relation::Less || !from || *from <= 0 || !bound.holds(0) ||
-          !bound.holds(*from - 1))
-        return;
-      const auto& row = spec::info(test->sensor);
-      findings_.add(rules::EndlessLoop, span_of(comparison),
-                    texts::TimerCountsDown(row.word, *from), texts::WaitForZero());
+    const auto from = set_above(test->sensor, jump.to);
+    // A timer equals a number only for an instant.
+    if (test->orders != Orders::Less || !from || *from <= 0 || !test->holds(0) ||
+        !test->holds(*from - 1))
       return;
-    }
+    findings_.add(rules::EndlessLoop, span_of(comparison),
+                  texts::TimerCountsDown(spec::info(test->sensor).word, *from),
+                  texts::WaitForZero());
   }
 
   /// Data that each round reads from its start again.
@@ -354,10 +323,9 @@ private:
     const auto far = spec::info(test->sensor).greatest;
     const bool along = (test->sensor == Variable::Ypos) == (*heading % (2 * quarter) == 0);
     const bool up = *heading < 2 * quarter;
-    const Bound bound{test->relation, test->number};
     // The places it can reach: anywhere along its heading, and a little to the sides.
     for (const auto value : {0, -sway, sway, along && up ? far : sway, along && !up ? -far : -sway})
-      if (!bound.holds(value))
+      if (!test->holds(value))
         return;
     std::string text(program_.text_of(span_of(comparison)));
     if (text.find_first_of("\r\n") != std::string::npos)
@@ -365,7 +333,7 @@ private:
     auto& d = findings_.add(rules::ConstantComparison, span_of(comparison),
                             texts::NoRollLeadsThere(text));
     const auto at = text.find(spec::info(test->sensor).word);
-    if (at != std::string::npos && !along && bound.holds(up ? far : -far) == false)
+    if (at != std::string::npos && !along && !test->holds(up ? far : -far))
       d.help = texts::Write(text.replace(
           at, spec::info(test->sensor).word.size(),
           spec::info(test->sensor == Variable::Xpos ? Variable::Ypos : Variable::Xpos).word));
@@ -380,8 +348,9 @@ private:
       if (condition.second)
         continue;
       const auto& [left, relation, right] = condition.first;
-      check_extreme(condition.first, left, right, static_cast<Relation>(relation.value));
-      check_extreme(condition.first, right, left, mirrored(static_cast<Relation>(relation.value)));
+      const auto orders = orders_of(condition.first);
+      check_extreme(condition.first, left, right, orders);
+      check_extreme(condition.first, right, left, mirrored(orders));
     }
   }
 
@@ -414,7 +383,7 @@ private:
   }
 
   void check_extreme(const Comparison& comparison, const Item& asked, const Item& kept,
-                     Relation relation) {
+                     Orders orders) {
     const auto sensor = sensor_behind(asked);
     const auto [letter, by] = shifted(kept);
     if (!sensor || letter == none || is_timer(*sensor))
@@ -434,7 +403,7 @@ private:
         return;
     }
     const auto start = begin.value_or(0);
-    const Bound bound{relation, std::int64_t{start} + by};
+    const Bound bound{orders, std::int64_t{start} + by};
     if (!keeps || bound.holds(row.least) != bound.holds(row.greatest) ||
         bound.holds(row.least) != bound.holds(start) ||
         (start != row.least && start != row.greatest))
@@ -447,11 +416,7 @@ private:
                   texts::BeginWith(fmt::format("{} = {}", text, least ? row.greatest : row.least)));
   }
 
-  const Program& program_;
-  const Flow& flow_;
   const Settings& settings_;
-  Findings& findings_;
-  std::uint32_t size_;
 };
 
 } // namespace

@@ -1,5 +1,4 @@
-#include "compiler/analyse/reading.h"
-#include "compiler/lint/lint_passes.h"
+#include "compiler/lint/line_pass.h"
 #include "compiler/lint/sums.h"
 #include "compiler/text/rules.h"
 
@@ -15,10 +14,9 @@ namespace {
 using spec::Statement;
 
 /// Finds computations that lose their result: swaps, sums, products and percentages.
-class SumsPass {
+class SumsPass : private LinePass {
 public:
-  SumsPass(const Program& program, const Flow& flow, Findings& findings)
-      : program_(program), flow_(flow), findings_(findings) {}
+  using LinePass::LinePass;
 
   void run() {
     for (const auto& place : flow_.all(Statement::If))
@@ -34,10 +32,6 @@ public:
   }
 
 private:
-  const StatementNode& statement_of(std::uint32_t code) const {
-    return program_.statements[flow_.code[code].statement];
-  }
-
   /// The letter that a statement assigns; nothing for any other statement.
   std::optional<std::uint8_t> set_by(const StatementNode& statement) const {
     if (statement.error || statement.kind != Statement::Let)
@@ -69,7 +63,7 @@ private:
     const auto number = constant_in(program_, comparison.right);
     if (!number)
       return std::nullopt;
-    return Bound{static_cast<spec::Relation>(comparison.relation.value), *number};
+    return Bound{orders_of(comparison), *number};
   }
 
   void check_joint(const IfView& condition) {
@@ -303,9 +297,6 @@ private:
     bool others = false; ///< something else assigns it, too
   };
 
-  const Program& program_;
-  const Flow& flow_;
-  Findings& findings_;
   std::array<Product, most_letters> products_{};
 };
 

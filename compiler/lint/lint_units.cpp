@@ -1,5 +1,4 @@
-#include "compiler/analyse/reading.h"
-#include "compiler/lint/lint_passes.h"
+#include "compiler/lint/line_pass.h"
 #include "compiler/lint/sensor_tests.h"
 #include "compiler/text/rules.h"
 #include "spec/ball.h"
@@ -20,10 +19,9 @@ constexpr std::int32_t unseen_colour_ms = 10;
 constexpr std::int32_t unseen_party_ms = 6;
 
 /// Finds numbers in range that cannot be intended: seconds for milliseconds, a brightness of 1.
-class UnitsPass {
+class UnitsPass : private LinePass {
 public:
-  UnitsPass(const Program& program, const Flow& flow, Findings& findings)
-      : program_(program), flow_(flow), findings_(findings) {}
+  using LinePass::LinePass;
 
   void run() {
     each(Statement::Let, &UnitsPass::check_timer);
@@ -38,9 +36,6 @@ public:
   }
 
 private:
-  const StatementNode& statement_of(std::uint32_t code) const {
-    return program_.statements[flow_.code[code].statement];
-  }
   std::optional<std::int32_t> number(const Item& item) const { return number_in(program_, item); }
 
   using Check = void (UnitsPass::*)(const StatementNode& statement, std::uint32_t code);
@@ -252,8 +247,7 @@ private:
     if (!test)
       return;
     const Span all{comparison.left.span.begin, comparison.right.span.end};
-    const SensorQuestion question{test->sensor, test->relation, test->number,
-                                  std::string(1, spec::info(test->relation).symbol), test->number};
+    const SensorQuestion question{test->sensor, test->orders, test->number, false};
     const auto answer = judge(question, program_.text_of(all), timers_);
     if (!answer)
       return;
@@ -275,9 +269,6 @@ private:
   static constexpr std::int32_t in_second = milliseconds.in_whole;
   static constexpr std::int32_t least_meant = milliseconds.least_meant;
 
-  const Program& program_;
-  const Flow& flow_;
-  Findings& findings_;
   Timers timers_;
 };
 

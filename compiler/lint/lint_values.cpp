@@ -248,15 +248,15 @@ bool ValuesPass::assume(const IfView& condition, Holds holds) {
 }
 
 bool ValuesPass::assume(const Comparison& comparison, Holds holds) {
-  const auto relation = static_cast<spec::Relation>(comparison.relation.value);
+  const auto orders = orders_of(comparison, holds);
   const auto left = known_[comparison.left.value].range;
   const auto right = known_[comparison.right.value].range;
-  const auto left_where = where(relation, holds, left, right);
+  const auto left_where = where(orders, left, right);
   if (!left_where)
     return false;
   narrow(comparison.left, left, *left_where);
   if (program_.nodes[comparison.right.value].kind != NodeKind::Number) // a number never changes
-    narrow(comparison.right, right, *where(mirrored(relation), holds, right, left));
+    narrow(comparison.right, right, *where(mirrored(orders), right, left));
   return true;
 }
 
@@ -345,14 +345,14 @@ bool ValuesPass::end_loop(const NextView& next) {
 std::optional<Range> ValuesPass::next_of(const Loop& loop, const LetterValues& before) {
   const auto stepped = apply(spec::Operator::Add, before[loop.letter].range, loop.step);
   const bool fixed = loop.step.lo > 0 || loop.step.hi < 0;
-  const auto over = loop.step.lo > 0 ? spec::Relation::Greater : spec::Relation::Less;
-  const auto within = fixed ? where(over, Holds::No, stepped, loop.end) : stepped;
+  const auto over = loop.step.lo > 0 ? Orders::Greater : Orders::Less;
+  const auto within = fixed ? where(opposite(over), stepped, loop.end) : stepped;
   if (within && following_) {
     now_ = before;
     set_letter(loop.letter, {letters_[loop.letter].assigned ? *within : loop.body});
     ways_.enter(loop.code + 1, now_);
   }
-  return fixed ? where(over, Holds::Yes, stepped, loop.end) : stepped;
+  return fixed ? where(over, stepped, loop.end) : stepped;
 }
 
 void ValuesPass::read(std::span<const Item> variables) {

@@ -1,5 +1,4 @@
-#include "compiler/analyse/reading.h"
-#include "compiler/lint/lint_passes.h"
+#include "compiler/lint/line_pass.h"
 #include "compiler/lint/sensor_tests.h"
 #include "compiler/text/rules.h"
 #include "spec/limits.h"
@@ -10,15 +9,13 @@
 namespace orb::compiler {
 namespace {
 
-using spec::Relation;
 using spec::Statement;
 
 /// Finds loops that wait for an impossible event, and loops used as a delay.
-class WaitsPass {
+class WaitsPass : private LinePass {
 public:
   WaitsPass(const Program& program, const Flow& flow, const Settings& settings, Findings& findings)
-      : program_(program), flow_(flow), settings_(settings), findings_(findings),
-        size_(static_cast<std::uint32_t>(flow.code.size())) {}
+      : LinePass(program, flow, findings), settings_(settings) {}
 
   void run() {
     for (const auto& place : flow_.all(Statement::For))
@@ -32,14 +29,7 @@ public:
   }
 
 private:
-  const StatementNode& statement_of(std::uint32_t code) const {
-    return program_.statements[flow_.code[code].statement];
-  }
   std::optional<std::int32_t> number(const Item& item) const { return number_in(program_, item); }
-  bool is_plain(std::uint32_t code) const {
-    const auto& statement = statement_of(code);
-    return !statement.error && statement.then_branch == none;
-  }
 
   // ---- loops that count
 
@@ -54,7 +44,7 @@ private:
     std::int64_t reads = 0;
     const StatementNode* let = nullptr; // the last that assigns the variable
     for (auto i = begin + 1; i < size_ && i - begin < longest_loop; ++i) {
-      if (!is_plain(i) || flow_.code[i].target)
+      if (!is_single(i) || flow_.code[i].target)
         return;
       const auto& inside = statement_of(i);
       if (inside.kind == Statement::Next) {
@@ -117,7 +107,7 @@ private:
   std::int64_t read_above(std::uint32_t begin) const {
     std::int64_t reads = 0;
     for (auto i = begin; i > 0 && begin - i < longest_loop; --i) {
-      if (flow_.code[i].target || !is_plain(i - 1) || !flow_.code[i - 1].falls)
+      if (flow_.code[i].target || !is_single(i - 1) || !flow_.code[i - 1].falls)
         return reads;
       if (statement_of(i - 1).kind == Statement::Data)
         return reads;
@@ -157,7 +147,7 @@ private:
   void check_endless_read(std::uint32_t first, std::uint32_t last) {
     bool reads = false;
     for (auto i = first; i <= last; ++i) {
-      if (!is_plain(i) || flow_.code[i].ends || flow_.code[i].loops)
+      if (!is_single(i) || flow_.code[i].ends || flow_.code[i].loops)
         return;
       for (const auto& jump : flow_.jumps_of(flow_.code[i]))
         if (i != last || jump.call)
@@ -207,11 +197,11 @@ private:
     const auto set = std::max(settings_[*letter][0].code, settings_[*letter][1].code); // the one
                                                                                        // below
     if (let.variable.kind != ItemKind::Letter || let.variable.value != *letter || !first ||
-        set <= jump.to || set >= code || !is_plain(set))
+        set <= jump.to || set >= code || !is_single(set))
       return;
     const auto step = step_in(statement_of(set), *letter);
-    const SensorTest test{{}, static_cast<Relation>(condition.first.relation.value), *limit, {}};
-    if (!step || !holds(test, *first) || !holds(test, *first + *step))
+    const Bound test{orders_of(condition.first), *limit};
+    if (!step || !test.holds(*first) || !test.holds(*first + *step))
       return;
     const auto number_of = [&](std::uint32_t line) {
       return program_.lines[flow_.code[line].line].number;
@@ -247,48 +237,18 @@ private:
     if (!test || condition.second)
       return;
     const auto& row = spec::info(test->sensor);
-    if (row.access == spec::Access::ReadClears && holds(*test, row.greatest) &&
-        !holds(*test, row.least))
+    if (row.access == spec::Access::ReadClears && test->holds(row.greatest) &&
+        !test->holds(row.least))
       return add_inverted(statement, condition.first, row,
                           texts::ForOneReadingOnly(row.word, row.greatest),
                           fmt::format("{} = {}", row.word, row.least));
     const auto set = is_timer(test->sensor) ? set_above(test->sensor, code) : std::nullopt;
-    if (!set || holds(*test, *set))
+    if (!set || test->holds(*set))
       return;
     const bool down = *set > 0;
     add_inverted(statement, condition.first, row, texts::TimerStartsAt(row.word, *set),
                  fmt::format("{} {} {}", row.word, down ? ">" : "<",
                              down ? test->number : std::max(test->number, 0)));
-  }
-
-  static bool holds(const SensorTest& test, std::int32_t value) {
-    switch (test.relation) {
-    case Relation::Equal: return value == test.number;
-    case Relation::NotEqual: return value != test.number;
-    case Relation::Less: return value < test.number;
-    case Relation::Greater: return value > test.number;
-    }
-    return false;
-  }
-
-  /// The value assigned to a timer on the lines right above.
-  std::optional<std::int32_t> set_above(spec::Variable timer, std::uint32_t code) const {
-    constexpr std::uint32_t far = 8;
-    for (auto i = code; i > 0 && code - i < far; --i) {
-      if ((i < code && flow_.code[i].target) || !flow_.code[i - 1].falls || !is_plain(i - 1))
-        return std::nullopt;
-      const auto& statement = statement_of(i - 1);
-      const auto after = spec::info(statement.kind).after;
-      if (after != spec::After::Falls)
-        return std::nullopt; // time passes, or another path joins
-      if (statement.kind != Statement::Let)
-        continue;
-      const auto let = program_.as<LetView>(statement);
-      if (let.variable.kind == ItemKind::System &&
-          let.variable.value == static_cast<std::uint32_t>(timer))
-        return number(let.expression);
-    }
-    return std::nullopt;
   }
 
   void add_inverted(const StatementNode& statement, const Comparison& comparison,
@@ -366,22 +326,17 @@ private:
   /// A loop that tests a letter with a constant value from above the loop.
   void check_unchanged(const StatementNode& test, bool back, std::optional<std::int32_t> value) {
     const auto condition = program_.as<IfView>(test).first;
-    const auto relation = static_cast<Relation>(condition.relation.value);
-    const SensorTest asked{{}, relation, number(condition.right).value_or(0), {}};
-    if (!value || holds(asked, *value) != back)
+    const Bound asked{orders_of(condition), number(condition.right).value_or(0)};
+    if (!value || asked.holds(*value) != back)
       return;
     const auto name = program_.text_of(condition.left.span);
-    const bool down = back == (relation == Relation::Greater);
+    const bool down = back == (asked.orders == Orders::Greater);
     findings_.add(rules::EndlessLoop, Span{condition.left.span.begin, condition.right.span.end},
                   texts::NothingChanges(name),
                   texts::AddToLoop(stepped(program_, name, down ? '-' : '+', 1)));
   }
 
-  const Program& program_;
-  const Flow& flow_;
   const Settings& settings_;
-  Findings& findings_;
-  std::uint32_t size_;
 };
 
 } // namespace

@@ -1,52 +1,38 @@
 #include "compiler/lint/sensor_tests.h"
 
+#include "compiler/analyse/range.h"
 #include "compiler/text/rules.h"
 #include "compiler/text/texts.h"
 
+#include <array>
 #include <fmt/format.h>
 
 namespace orb::compiler {
 namespace {
 
-using spec::Relation;
+std::string_view symbol_of(Orders orders) {
+  constexpr std::array<std::string_view, 7> symbols{"", "<", "=", "<=", ">", "!", ">="};
+  return symbols[static_cast<std::size_t>(orders)];
+}
 
 SensorAnswer in_unit(const SensorQuestion& question, const spec::VariableInfo& row,
                      const spec::SmallUnit& unit) {
-  const auto meant = question.written * unit.in_whole;
-  const auto line = fmt::format("{} {} {}", row.word, question.symbol, meant);
+  const auto meant = question.number * unit.in_whole;
+  const auto line = fmt::format("{} {} {}", row.word, symbol_of(question.orders), meant);
   return {&rules::WrongUnit,
-          texts::CountsIn(row.word, unit.unit, fmt::format("{} {}", question.written, unit.whole),
+          texts::CountsIn(row.word, unit.unit, fmt::format("{} {}", question.number, unit.whole),
                           meant),
           texts::Write(line), line};
 }
 
 SensorAnswer passed(const SensorQuestion& question, const spec::VariableInfo& row, bool down) {
-  const bool equal = question.relation == Relation::Equal;
+  const bool equal = question.orders == Orders::Equal;
   // A timer that counts down passes to below the number, one that counts up to above.
   const auto symbol = down == equal ? '<' : '>';
   const auto limit = equal ? question.number + (down ? 1 : -1) : question.number;
   const auto line = fmt::format("{} {} {}", row.word, symbol, limit);
   return {&rules::ExactTime, texts::ForOneMillisecond(row.word, question.number),
           texts::Write(line), line};
-}
-
-/// The result of a comparison that is constant; nothing otherwise.
-std::optional<bool> only_answer(const SensorQuestion& question, const spec::VariableInfo& row) {
-  const bool below = question.number < row.least;
-  const bool above = question.number > row.greatest;
-  switch (question.relation) {
-  case Relation::Equal: return below || above ? std::optional(false) : std::nullopt;
-  case Relation::NotEqual: return below || above ? std::optional(true) : std::nullopt;
-  case Relation::Less:
-    if (question.number <= row.least)
-      return false;
-    return above ? std::optional(true) : std::nullopt;
-  case Relation::Greater:
-    if (question.number >= row.greatest)
-      return false;
-    return below ? std::optional(true) : std::nullopt;
-  }
-  return std::nullopt;
 }
 
 SensorAnswer constant(const SensorQuestion& question, const spec::VariableInfo& row, bool answer,
@@ -59,7 +45,7 @@ SensorAnswer constant(const SensorQuestion& question, const spec::VariableInfo& 
                     {},
                     {}};
   const bool turn = row.unit == "deg" && row.least == 0 && question.number == row.greatest + 1;
-  if (turn && question.relation == Relation::Equal)
+  if (turn && question.orders == Orders::Equal)
     said.line = fmt::format("{} = 0", row.word);
   said.help = turn && !said.line.empty() ? texts::Write(said.line)
                                          : texts::CompareWithFromTo(row.least, row.greatest);
@@ -72,17 +58,18 @@ std::optional<SensorAnswer> judge(const SensorQuestion& question, std::string_vi
                                   const Timers& timers) {
   const auto& row = spec::info(question.sensor);
   const bool timer = is_timer(question.sensor);
-  const bool exact =
-      question.relation == Relation::Equal || question.relation == Relation::NotEqual;
+  const bool exact = question.orders == Orders::Equal || question.orders == Orders::NotEqual;
   if (timer && exact && question.number > 0)
     return passed(question, row, timers.counts_down(question.sensor));
   const auto* unit = spec::find_small_unit(row.unit);
-  const bool tiny = unit != nullptr && question.written > 1 && question.written < unit->least_meant;
+  const bool tiny = unit != nullptr && !question.has_unit && question.number > 1 &&
+                    question.number < unit->least_meant;
   // A timer that counts down is below a few milliseconds when it has almost run out.
   if (tiny &&
-      (!timer || question.relation == Relation::Greater || !timers.counts_down(question.sensor)))
+      (!timer || !has(question.orders, Orders::Less) || !timers.counts_down(question.sensor)))
     return in_unit(question, row, *unit);
-  if (const auto answer = only_answer(question, row))
+  if (const auto answer =
+          answer_of(question.orders, {row.least, row.greatest}, Range::only(question.number)))
     return constant(question, row, *answer, text);
   return std::nullopt;
 }

@@ -2,6 +2,7 @@
 
 #include "base/message.h"
 #include "base/rules.h"
+#include "compiler/analyse/orders.h"
 #include "spec/basic.h"
 
 #include <cstdint>
@@ -30,10 +31,9 @@ private:
 /// A comparison of a sensor, on the left, with a number.
 struct SensorQuestion {
   spec::Variable sensor;
-  spec::Relation relation; ///< as the robot evaluates it
+  Orders orders;
   std::int32_t number;
-  std::string symbol; ///< as written: `>=`
-  std::int32_t written;
+  bool has_unit; ///< a unit is written behind the number
 };
 
 struct SensorAnswer {

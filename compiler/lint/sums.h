@@ -1,6 +1,7 @@
 #pragma once
 
 #include "base/source.h"
+#include "compiler/analyse/reading.h"
 #include "compiler/text/texts.h"
 #include "spec/basic.h"
 
@@ -14,22 +15,6 @@
 // comparisons, and the messages.
 
 namespace orb::compiler {
-
-/// A comparison `value relation number`.
-struct Bound {
-  spec::Relation relation;
-  std::int64_t number;
-
-  bool holds(std::int64_t value) const {
-    switch (relation) {
-    case spec::Relation::Equal: return value == number;
-    case spec::Relation::NotEqual: return value != number;
-    case spec::Relation::Less: return value < number;
-    case spec::Relation::Greater: return value > number;
-    }
-    return false;
-  }
-};
 
 /// The joint result of two comparisons of one value if it is constant: `A > 9 and A < 1` never
 /// holds, `A ! 1 or A ! 2` always does. Nothing if it depends on the value. A comparison changes

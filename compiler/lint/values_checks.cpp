@@ -488,8 +488,7 @@ void ValuesPass::check_condition(const IfView& condition) {
 
 void ValuesPass::check_answer(const Comparison& comparison) {
   const auto letter = letter_in(program_, comparison.left);
-  if (!letter || !number_in(program_, comparison.right) ||
-      static_cast<spec::Relation>(comparison.relation.value) != spec::Relation::Equal)
+  if (!letter || !number_in(program_, comparison.right) || orders_of(comparison) != Orders::Equal)
     return;
   if (!now_[*letter].dense)
     return;

@@ -27,21 +27,6 @@ void each_number(const Code& code, std::uint32_t term, Visit visit) {
 
 } // namespace
 
-std::optional<compiler::Range> where(Comparison comparison, compiler::Range left,
-                                     compiler::Range right) {
-  using compiler::Holds;
-  using spec::Relation;
-  switch (comparison) {
-  case Comparison::Equal: return compiler::where(Relation::Equal, Holds::Yes, left, right);
-  case Comparison::NotEqual: return compiler::where(Relation::Equal, Holds::No, left, right);
-  case Comparison::Less: return compiler::where(Relation::Less, Holds::Yes, left, right);
-  case Comparison::LessEqual: return compiler::where(Relation::Greater, Holds::No, left, right);
-  case Comparison::Greater: return compiler::where(Relation::Greater, Holds::Yes, left, right);
-  case Comparison::GreaterEqual: return compiler::where(Relation::Less, Holds::No, left, right);
-  }
-  return left;
-}
-
 Range Ranges::range_of(std::uint32_t term, const VariableRanges& state) const {
   const auto& node = code_.terms[term];
   switch (node.kind) {
@@ -388,12 +373,10 @@ void Ranges::leave_on(const CodeLine& line, VariableRanges& state) {
     state[variable] = before;
 }
 
-Outcome outcome_of(const Ranges& ranges, const Relation& relation, const VariableRanges& state) {
-  const auto left = ranges.range_of(relation.left, state);
-  const auto right = ranges.range_of(relation.right, state);
-  if (!where(relation.comparison, left, right))
-    return Outcome::Never;
-  return where(opposite(relation.comparison), left, right) ? Outcome::Unknown : Outcome::Always;
+std::optional<bool> answer_of(const Ranges& ranges, const Relation& relation,
+                              const VariableRanges& state) {
+  return compiler::answer_of(relation.comparison, ranges.range_of(relation.left, state),
+                             ranges.range_of(relation.right, state));
 }
 
 std::uint32_t chosen_label(const Code& code, const Ranges& ranges, const CodeLine& on,

@@ -8,10 +8,6 @@
 
 namespace orb::structured {
 
-/// The values of a comparison's left side for which it holds; nothing if it cannot hold.
-std::optional<compiler::Range> where(Comparison comparison, compiler::Range left,
-                                     compiler::Range right);
-
 /// The range of each variable at a program point. Variables that are neither read later nor set to
 /// a number are unknown.
 using VariableRanges = std::vector<compiler::Range>;
@@ -112,9 +108,9 @@ private:
   std::uint32_t growths_ = 0;                           ///< of `elements_`
 };
 
-/// The result of a comparison.
-enum class Outcome : std::uint8_t { Unknown, Always, Never };
-Outcome outcome_of(const Ranges& ranges, const Relation& relation, const VariableRanges& state);
+/// The result of a comparison if it is the same for all values.
+std::optional<bool> answer_of(const Ranges& ranges, const Relation& relation,
+                              const VariableRanges& state);
 
 /// The label that an `on` certainly jumps to, or none.
 std::uint32_t chosen_label(const Code& code, const Ranges& ranges, const CodeLine& on,

@@ -382,8 +382,7 @@ private:
       return std::nullopt;
     const auto left = code_.terms[relation.left].value;
     const auto right = code_.terms[relation.right].value;
-    const unsigned order = left < right ? 1 : left == right ? 2 : 4; // bits of orders_of()
-    return (orders_of(relation.comparison) & order) != 0;
+    return holds(relation.comparison, left, right);
   }
 
   /// Writes a relation in source order; for `<=` and `>=`, which the robot lacks, adjusts one side

@@ -1,21 +1,21 @@
 #include "structured/lift/tests.h"
 
+#include "compiler/analyse/reading.h"
 #include "structured/lift/effects.h"
 
+#include <array>
 #include <cstdlib>
 #include <fmt/format.h>
 
 namespace orb::structured::lifting {
 namespace {
 
-std::string_view sign_of(spec::Relation relation, bool negated) {
-  switch (relation) {
-  case spec::Relation::Equal: return negated ? "<>" : "=";
-  case spec::Relation::NotEqual: return negated ? "=" : "<>";
-  case spec::Relation::Less: return negated ? ">=" : "<";
-  case spec::Relation::Greater: return negated ? "<=" : ">";
-  }
-  return "=";
+using compiler::Holds;
+using compiler::Orders;
+
+std::string_view sign_of(compiler::Orders orders) {
+  constexpr std::array<std::string_view, 7> signs{"", "<", "=", "<=", ">", "<>", ">="};
+  return signs[static_cast<std::size_t>(orders)];
 }
 
 std::int32_t step_of(const compiler::Program& program, const compiler::ForView& loop) {
@@ -59,7 +59,7 @@ std::string LiftedTests::relation(std::uint32_t step, const compiler::Comparison
     return computed ? helper(step, first + nth, "seen") : values_.text(item);
   };
   auto left = side(comparison.left, 0);
-  const auto sign = sign_of(static_cast<spec::Relation>(comparison.relation.value), negated);
+  const auto sign = sign_of(orders_of(comparison, negated ? Holds::No : Holds::Yes));
   return fmt::format("{} {} {}", left, sign, side(comparison.right, 1));
 }
 
@@ -98,10 +98,9 @@ std::string LiftedTests::count(std::uint32_t step) {
 
 std::string LiftedTests::is_over(std::uint32_t step, bool negated) {
   const auto loop = program_.as<compiler::ForView>(statement_of(program_, ways_, step));
-  const auto relation =
-      step_of(program_, loop) > 0 ? spec::Relation::Greater : spec::Relation::Less;
+  const auto over = step_of(program_, loop) > 0 ? Orders::Greater : Orders::Less;
   return fmt::format("{} {} {}", values_.letter_read(loop.variable.value),
-                     sign_of(relation, negated), end_of(step, loop));
+                     sign_of(negated ? opposite(over) : over), end_of(step, loop));
 }
 
 /// The end of a loop: a number, or the variable that stores it.

@@ -291,42 +291,6 @@ Sum sum_of(const Code& code, std::uint32_t term) {
   return {node.left, adds ? number : -number};
 }
 
-Comparison opposite(Comparison comparison) {
-  switch (comparison) {
-  case Comparison::Equal: return Comparison::NotEqual;
-  case Comparison::NotEqual: return Comparison::Equal;
-  case Comparison::Less: return Comparison::GreaterEqual;
-  case Comparison::Greater: return Comparison::LessEqual;
-  case Comparison::LessEqual: return Comparison::Greater;
-  case Comparison::GreaterEqual: return Comparison::Less;
-  }
-  return comparison;
-}
-
-unsigned orders_of(Comparison comparison) {
-  switch (comparison) {
-  case Comparison::Less: return 1;
-  case Comparison::Equal: return 2;
-  case Comparison::LessEqual: return 3;
-  case Comparison::Greater: return 4;
-  case Comparison::NotEqual: return 5;
-  case Comparison::GreaterEqual: return 6;
-  }
-  return 0;
-}
-
-Comparison mirrored(Comparison comparison) {
-  switch (comparison) {
-  case Comparison::Equal:
-  case Comparison::NotEqual: return comparison;
-  case Comparison::Less: return Comparison::Greater;
-  case Comparison::Greater: return Comparison::Less;
-  case Comparison::LessEqual: return Comparison::GreaterEqual;
-  case Comparison::GreaterEqual: return Comparison::LessEqual;
-  }
-  return comparison;
-}
-
 std::vector<std::uint32_t> reads_of(const Code& code) {
   std::vector<std::uint32_t> reads(code.variables.size(), 0);
   for (const auto& line : code.lines)

@@ -222,13 +222,6 @@ bool ends_in_function(const Code& code, std::uint32_t term);
 /// True if the operand of a function is printed in parentheses.
 bool function_needs_parentheses(const Code& code, std::uint32_t operand);
 
-/// The negation of a comparison, and the comparison with swapped sides.
-Comparison opposite(Comparison comparison);
-Comparison mirrored(Comparison comparison);
-
-/// The orders of two values for which a comparison holds, as bits: less, equal, greater.
-unsigned orders_of(Comparison comparison);
-
 /// The robot has no `<=` and `>=`. Gives the side to adjust by one so that `<` or `>` is
 /// equivalent; Neither if both could wrap.
 enum class Moved : std::uint8_t { Neither, Left, Right };

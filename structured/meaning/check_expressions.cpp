@@ -218,49 +218,11 @@ void Checker::check_sensor(std::uint32_t n) {
     return;
   const auto comparison = static_cast<Comparison>(nodes[n].what);
   const auto sensor = static_cast<spec::Variable>(nodes[sensor_right ? right : left].what);
-  auto question =
-      question_of(sensor_right ? mirrored(comparison) : comparison, sensor, number->value);
-  if (!question)
-    return;
-  if (number->duration)
-    question->written = 0; // it has an explicit unit
-  const auto answer = compiler::judge(*question, program_.text_of(nodes[n].span), timers_);
+  const compiler::SensorQuestion question{sensor, sensor_right ? mirrored(comparison) : comparison,
+                                          number->value, number->duration};
+  const auto answer = compiler::judge(question, program_.text_of(nodes[n].span), timers_);
   if (answer)
     report(*answer->rule, nodes[n].span, answer->message, answer->help);
-}
-
-Comparison Checker::mirrored(Comparison comparison) {
-  switch (comparison) {
-  case Comparison::Less: return Comparison::Greater;
-  case Comparison::Greater: return Comparison::Less;
-  case Comparison::LessEqual: return Comparison::GreaterEqual;
-  case Comparison::GreaterEqual: return Comparison::LessEqual;
-  case Comparison::Equal:
-  case Comparison::NotEqual: break;
-  }
-  return comparison;
-}
-
-std::optional<compiler::SensorQuestion>
-Checker::question_of(Comparison comparison, spec::Variable sensor, std::int32_t number) {
-  using spec::Relation;
-  const auto ask = [&](Relation relation, std::int64_t asked,
-                       std::string symbol) -> std::optional<compiler::SensorQuestion> {
-    if (asked < std::numeric_limits<std::int32_t>::min() ||
-        asked > std::numeric_limits<std::int32_t>::max())
-      return std::nullopt;
-    return compiler::SensorQuestion{sensor, relation, static_cast<std::int32_t>(asked),
-                                    std::move(symbol), number};
-  };
-  switch (comparison) {
-  case Comparison::Equal: return ask(Relation::Equal, number, "=");
-  case Comparison::NotEqual: return ask(Relation::NotEqual, number, "!");
-  case Comparison::Less: return ask(Relation::Less, number, "<");
-  case Comparison::Greater: return ask(Relation::Greater, number, ">");
-  case Comparison::LessEqual: return ask(Relation::Less, std::int64_t{number} + 1, "<=");
-  case Comparison::GreaterEqual: return ask(Relation::Greater, std::int64_t{number} - 1, ">=");
-  }
-  return std::nullopt;
 }
 
 void Checker::check_quotient(std::uint32_t n) {

@@ -9,16 +9,7 @@ std::optional<compiler::Bound> Checker::bound_of(std::uint32_t relation) const {
   const auto number = evaluate(program_, names_, relation - 1);
   if (!number)
     return std::nullopt;
-  const std::int64_t value = number->value;
-  switch (static_cast<Comparison>(program_.nodes[relation].what)) {
-  case Comparison::Equal: return compiler::Bound{spec::Relation::Equal, value};
-  case Comparison::NotEqual: return compiler::Bound{spec::Relation::NotEqual, value};
-  case Comparison::Less: return compiler::Bound{spec::Relation::Less, value};
-  case Comparison::Greater: return compiler::Bound{spec::Relation::Greater, value};
-  case Comparison::LessEqual: return compiler::Bound{spec::Relation::Less, value + 1};
-  case Comparison::GreaterEqual: return compiler::Bound{spec::Relation::Greater, value - 1};
-  }
-  return std::nullopt;
+  return compiler::Bound{static_cast<Comparison>(program_.nodes[relation].what), number->value};
 }
 
 void Checker::check_joint(std::uint32_t n) {

@@ -67,12 +67,6 @@ private:
   /// Checks a sensor compared with a number, on either side.
   void check_sensor(std::uint32_t n);
 
-  static Comparison mirrored(Comparison comparison);
-
-  /// The equivalent test for the robot, which has no `<=` and `>=`.
-  static std::optional<compiler::SensorQuestion>
-  question_of(Comparison comparison, spec::Variable sensor, std::int32_t number);
-
   /// Reports `1 / 2`, which is 0.
   void check_quotient(std::uint32_t n);
 

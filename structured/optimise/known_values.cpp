@@ -243,17 +243,17 @@ private:
     if (condition.glue != Glue::None)
       return;
     auto& relation = condition.first;
-    const auto outcome = outcome_of(ranges_, relation, state);
+    const auto answer = answer_of(ranges_, relation, state);
     // Keep the test of an index that is certainly wrong, so that the robot reports it.
     const bool to_good = relation.comparison == Comparison::LessEqual ||
                          relation.comparison == Comparison::GreaterEqual;
-    if (line.guard && (to_good || outcome == Outcome::Always))
-      judge_index(line.origin, (outcome == Outcome::Never) == to_good, state[index_variable]);
-    const bool always = outcome == Outcome::Always && (!line.guard || to_good);
-    const bool never = outcome == Outcome::Never && (!line.guard || !to_good);
+    if (line.guard && (to_good || answer == true))
+      judge_index(line.origin, (answer == false) == to_good, state[index_variable]);
+    const bool always = answer == true && (!line.guard || to_good);
+    const bool never = answer == false && (!line.guard || !to_good);
     const auto effects = code_.terms[relation.left].effects | code_.terms[relation.right].effects;
     if ((always || never) && (effects & (effect::faults | effect::clears)) != 0)
-      keep_computing(line, outcome);
+      keep_computing(line, always);
     else if (always)
       line.kind = LineKind::Goto;
     else if (never)
@@ -275,13 +275,13 @@ private:
 
   /// Keeps a test with a known outcome for its side effects: it jumps to the next line, where the
   /// path continues.
-  void keep_computing(CodeLine& line, Outcome outcome) {
+  void keep_computing(CodeLine& line, bool always) {
     auto after = line;
     after.kind = LineKind::Label;
     after.label = code_.labels++;
     const auto place = static_cast<std::uint32_t>(&line - code_.lines.data()) + 1;
     added_.push_back({place, after});
-    if (outcome == Outcome::Always) {
+    if (always) {
       auto jump = line;
       jump.kind = LineKind::Goto;
       added_.push_back({place, jump});

@@ -117,10 +117,8 @@ private:
     if (line.kind == LineKind::Goto)
       return line.label;
     if (line.kind == LineKind::If && is_pure_test(code_, line)) {
-      const auto outcome = outcome_of(ranges_, code_.conditions[line.condition].first, state);
-      return outcome == Outcome::Unknown
-                 ? std::nullopt
-                 : std::optional(outcome == Outcome::Always ? line.label : none);
+      const auto answer = answer_of(ranges_, code_.conditions[line.condition].first, state);
+      return answer ? std::optional(*answer ? line.label : none) : std::nullopt;
     }
     if (line.kind != LineKind::On || !is_pure(effects_of(code_, line)))
       return std::nullopt;

@@ -6,6 +6,7 @@
 
 #include "base/diagnostic.h"
 #include "base/source.h"
+#include "compiler/analyse/orders.h"
 #include "spec/basic.h"
 
 #include <cstdint>
@@ -37,7 +38,7 @@ enum class NodeKind : std::uint8_t {
   Or,
 };
 
-enum class Comparison : std::uint8_t { Equal, NotEqual, Less, Greater, LessEqual, GreaterEqual };
+using Comparison = compiler::Orders;
 
 /// A part of an expression or a condition, in postfix order: operands come right before their
 /// operator. The last operand of node `i` is node `i - 1`; the one before it ends right before that

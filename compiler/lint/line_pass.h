@@ -1,0 +1,73 @@
+#pragma once
+
+#include "compiler/analyse/flow.h"
+#include "compiler/analyse/reading.h"
+#include "compiler/lint/lint_passes.h"
+
+#include <cstdint>
+#include <optional>
+#include <span>
+
+namespace orb::compiler {
+
+/// A pass over the lines of code of a program, given by their index into Flow::code.
+class LinePass {
+public:
+  LinePass(const Program& program, const Flow& flow, Findings& findings)
+      : program_(program), flow_(flow), findings_(findings),
+        size_(static_cast<std::uint32_t>(flow.code.size())) {}
+
+protected:
+  const StatementNode& statement_of(std::uint32_t code) const {
+    return program_.statements[flow_.code[code].statement];
+  }
+  /// The statement of a line and those in its branches.
+  std::span<const StatementNode> whole(std::uint32_t code) const {
+    return program_.whole(statement_of(code));
+  }
+  std::uint32_t number_of(std::uint32_t code) const {
+    return program_.lines[flow_.code[code].line].number;
+  }
+
+  /// True if the line has no branches.
+  bool is_single(std::uint32_t code) const {
+    const auto& statement = statement_of(code);
+    return !statement.error && statement.then_branch == none;
+  }
+  /// True if the line has no branches either, and only the line below follows it.
+  bool is_plain(std::uint32_t code) const {
+    return is_single(code) && flow_.code[code].falls && flow_.jumps_of(flow_.code[code]).empty();
+  }
+
+  /// True if the statement assigns a system variable.
+  bool sets(const StatementNode& statement, spec::Variable variable) const {
+    if (statement.error || statement.kind != spec::Statement::Let)
+      return false;
+    const auto& set = program_.as<LetView>(statement).variable;
+    return set.kind == ItemKind::System && static_cast<spec::Variable>(set.value) == variable;
+  }
+  /// The number assigned to a timer on the lines right above, if no time passes in between.
+  std::optional<std::int32_t> set_above(spec::Variable timer, std::uint32_t code) const {
+    constexpr std::uint32_t far = 8;
+    for (auto i = code; i > 0 && code - i < far; --i) {
+      const auto& above = statement_of(i - 1);
+      if ((i < code && flow_.code[i].target) || !is_plain(i - 1) ||
+          spec::info(above.kind).after != spec::After::Falls)
+        return std::nullopt;
+      if (sets(above, timer))
+        return constant_in(program_, program_.as<LetView>(above).expression);
+    }
+    return std::nullopt;
+  }
+
+  static Span span_of(const Comparison& comparison) {
+    return {comparison.left.span.begin, comparison.right.span.end};
+  }
+
+  const Program& program_;
+  const Flow& flow_;
+  Findings& findings_;
+  std::uint32_t size_; ///< the number of lines of code
+};
+
+} // namespace orb::compiler
