@@ -148,7 +148,8 @@ std::vector<Diagnostic> lint(const Program& program, const Target& target) {
   const bool jumps_known =
       std::none_of(program.faults.begin(), program.faults.end(),
                    [&](const Fault& fault) { return may_steer(program, fault); });
-  lint_text(program, flow, target, findings);
+  lint_text(program, flow, findings);
+  lint_statements(program, flow, target, findings);
   lint_age(program, target, findings);
   const bool at_risk =
       lint_values(program, flow, target, jumps_known ? Jumps::Known : Jumps::Unknown, findings);

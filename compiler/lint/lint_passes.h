@@ -43,9 +43,12 @@ std::string stepped(const Program& program, std::string_view name, char sign, st
 void lint_missing_numbers(const Program& program, std::span<const Fault* const> faults,
                           Findings& findings);
 
-/// Lints the text without evaluating it: bytes, line numbers, words, spaces, jump targets, notation
-/// of expressions.
-void lint_text(const Program& program, const Flow& flow, const Target& target, Findings& findings);
+/// Lints the text: bytes and line numbers.
+void lint_text(const Program& program, const Flow& flow, Findings& findings);
+
+/// Lints how statements are written: words, spaces, jump targets, notation of expressions.
+void lint_statements(const Program& program, const Flow& flow, const Target& target,
+                     Findings& findings);
 
 /// Reports features that the target firmware does not have yet.
 void lint_age(const Program& program, const Target& target, Findings& findings);
