@@ -215,6 +215,8 @@ private:
     if (auto& start = lines[loop.begin - (loop.begin > 0 ? 1 : 0)];
         start.kind == LineKind::Let && start.variable == loop.variable && !start.guard) {
       first.term = start.term;
+      first.origin = start.origin; // its value may stop the program
+      first.expansion = start.expansion;
       start.kind = LineKind::Nothing;
     }
     lines.insert(lines.begin() + loop.begin, first);
