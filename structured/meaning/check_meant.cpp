@@ -1,62 +1,10 @@
-#include "structured/meaning/checker.h"
-
 #include "base/text/text.h"
+#include "structured/meaning/check_pass.h"
 
-// Checks valid code that does not do what it appears to.
+#include <algorithm>
+#include <fmt/format.h>
 
 namespace orb::structured {
-
-// ---- parameters
-
-void Checker::check_parameters() {
-  for (const auto i : program_.order) {
-    if (at(i).kind != Kind::Assign)
-      continue;
-    const auto place = item(at(i), 0).value;
-    const auto symbol = names_.of_node[place];
-    if (program_.nodes[place].kind != NodeKind::Name || symbol == none ||
-        names_.symbols[symbol].kind != SymbolKind::Parameter || is_read_after(i, symbol))
-      continue;
-    const auto routine = names_.routine_of[i];
-    const bool function =
-        names_.symbols[names_.routines[routine].symbol].kind == SymbolKind::Function;
-    if (function && !gives_value(program_, names_, routine))
-      continue; // the missing `return` is reported elsewhere
-    const auto name = program_.name(names_.symbols[symbol].name);
-    report(rules::UnusedName, item(at(i), 0).span, texts::CallerNeverSees(name),
-           function ? texts::ReturnIt(fmt::format("return {}", name))
-                    : texts::FunctionGivesBack(fmt::format("return {}", name)));
-  }
-}
-
-/// True if the value that a statement assigns to a parameter may be read. Ignores control flow:
-/// every read below counts, and in a loop, or if there are labels, every read.
-bool Checker::is_read_after(std::uint32_t statement, std::uint32_t symbol) const {
-  const auto begin = names_.routines[names_.routine_of[statement]].statement;
-  auto first = statement + 1;
-  for (auto n = statement; n-- > begin;) {
-    if (at(n).kind == Kind::Label)
-      return true;
-    if (is_loop(at(n).kind) && at(n).next > statement)
-      first = n;
-  }
-  for (auto n = first; n < at(begin).next; ++n)
-    for (std::uint32_t part = 0; part < size(at(n)); ++part) {
-      const auto& one = item(at(n), part);
-      const bool only_set = part == 0 && at(n).kind == Kind::Assign &&
-                            (n == statement || at(n).operation == Statement::none_operation) &&
-                            program_.nodes[one.value].kind == NodeKind::Name;
-      if (!one.has_nodes() || only_set)
-        continue;
-      for (auto node = program_.nodes[one.value].first; node <= one.value; ++node)
-        if (program_.nodes[node].kind == NodeKind::Name && names_.of_node[node] == symbol)
-          return true;
-    }
-  return false;
-}
-
-// ---- indented lines
-
 namespace {
 
 /// The indentation of the line at an offset.
@@ -71,37 +19,105 @@ bool is_deeper(std::string_view inner, std::string_view outer) {
   return inner.size() > outer.size() && inner.starts_with(outer);
 }
 
+/// Checks valid code that does not do what it appears to.
+class MeantPass : private CheckPass {
+public:
+  using CheckPass::CheckPass;
+
+  void run() {
+    check_parameters();
+    check_indented();
+  }
+
+private:
+  /// Reports an assignment to a parameter, which the caller never sees.
+  // ---- parameters
+
+  void check_parameters() {
+    for (const auto i : program_.order) {
+      if (at(i).kind != Kind::Assign)
+        continue;
+      const auto place = item(at(i), 0).value;
+      const auto symbol = names_.of_node[place];
+      if (program_.nodes[place].kind != NodeKind::Name || symbol == none ||
+          names_.symbols[symbol].kind != SymbolKind::Parameter || is_read_after(i, symbol))
+        continue;
+      const auto routine = names_.routine_of[i];
+      const bool function =
+          names_.symbols[names_.routines[routine].symbol].kind == SymbolKind::Function;
+      if (function && !gives_value(program_, names_, routine))
+        continue; // the missing `return` is reported elsewhere
+      const auto name = program_.name(names_.symbols[symbol].name);
+      report(rules::UnusedName, item(at(i), 0).span, texts::CallerNeverSees(name),
+             function ? texts::ReturnIt(fmt::format("return {}", name))
+                      : texts::FunctionGivesBack(fmt::format("return {}", name)));
+    }
+  }
+
+  /// True if the value that a statement assigns to a parameter may be read. Ignores control flow:
+  /// every read below counts, and in a loop, or if there are labels, every read.
+  bool is_read_after(std::uint32_t statement, std::uint32_t symbol) const {
+    const auto begin = names_.routines[names_.routine_of[statement]].statement;
+    auto first = statement + 1;
+    for (auto n = statement; n-- > begin;) {
+      if (at(n).kind == Kind::Label)
+        return true;
+      if (is_loop(at(n).kind) && at(n).next > statement)
+        first = n;
+    }
+    for (auto n = first; n < at(begin).next; ++n)
+      for (std::uint32_t part = 0; part < size(at(n)); ++part) {
+        const auto& one = item(at(n), part);
+        const bool only_set = part == 0 && at(n).kind == Kind::Assign &&
+                              (n == statement || at(n).operation == Statement::none_operation) &&
+                              program_.nodes[one.value].kind == NodeKind::Name;
+        if (!one.has_nodes() || only_set)
+          continue;
+        for (auto node = program_.nodes[one.value].first; node <= one.value; ++node)
+          if (program_.nodes[node].kind == NodeKind::Name && names_.of_node[node] == symbol)
+            return true;
+      }
+    return false;
+  }
+
+  /// Reports lines that are indented as if they belonged to the one-line `if` above.
+  void check_indented() {
+    const std::string_view text = program_.text;
+    const auto indent = [&](std::uint32_t i) { return indent_at(text, at(i).span.begin); };
+    const auto starts_line = [&](std::uint32_t i) {
+      return at(i).span.size() > 0 && indent(i).end() == text.begin() + at(i).span.begin;
+    };
+    for (const auto& file : program_.files)
+      for (auto i = file.statements_begin; i < file.statements_end; ++i) {
+        if (at(i).kind != Kind::If || !at(i).one_line || !starts_line(i))
+          continue;
+        auto below = i;
+        while (at(below).next != none)
+          below = at(below).next;
+        ++below;
+        if (below >= file.statements_end || at(below).depth != at(i).depth || !starts_line(below) ||
+            !is_deeper(indent(below), indent(i)) || never_reached(i, below) == nullptr)
+          continue;
+        auto above = i; // the previous statement in its block
+        while (above-- > file.statements_begin && at(above).depth >= at(i).depth)
+          if (at(above).depth == at(i).depth && starts_line(above))
+            break;
+        if (above < i && above >= file.statements_begin && at(above).depth == at(i).depth &&
+            is_deeper(indent(above), indent(i)))
+          continue; // the `if` itself is indented too little
+        const Span head{at(i).span.begin, item(at(i), 0).span.end};
+        auto& d =
+            report(rules::MisleadingIndent, at(below).span, texts::RunsAnyway(),
+                   texts::MakeABlock(fmt::format("{} then", program_.text_of(head)), "end if"));
+        d.notes.push_back({head, texts::IfEndsHere()});
+      }
+  }
+};
+
 } // namespace
 
-void Checker::check_indented() {
-  const std::string_view text = program_.text;
-  const auto indent = [&](std::uint32_t i) { return indent_at(text, at(i).span.begin); };
-  const auto starts_line = [&](std::uint32_t i) {
-    return at(i).span.size() > 0 && indent(i).end() == text.begin() + at(i).span.begin;
-  };
-  for (const auto& file : program_.files)
-    for (auto i = file.statements_begin; i < file.statements_end; ++i) {
-      if (at(i).kind != Kind::If || !at(i).one_line || !starts_line(i))
-        continue;
-      auto below = i;
-      while (at(below).next != none)
-        below = at(below).next;
-      ++below;
-      if (below >= file.statements_end || at(below).depth != at(i).depth || !starts_line(below) ||
-          !is_deeper(indent(below), indent(i)) || never_reached(i, below) == nullptr)
-        continue;
-      auto above = i; // the previous statement in its block
-      while (above-- > file.statements_begin && at(above).depth >= at(i).depth)
-        if (at(above).depth == at(i).depth && starts_line(above))
-          break;
-      if (above < i && above >= file.statements_begin && at(above).depth == at(i).depth &&
-          is_deeper(indent(above), indent(i)))
-        continue; // the `if` itself is indented too little
-      const Span head{at(i).span.begin, item(at(i), 0).span.end};
-      auto& d = report(rules::MisleadingIndent, at(below).span, texts::RunsAnyway(),
-                       texts::MakeABlock(fmt::format("{} then", program_.text_of(head)), "end if"));
-      d.notes.push_back({head, texts::IfEndsHere()});
-    }
+void check_meant(Program& program, const Names& names, const compiler::Target& target) {
+  MeantPass(program, names, target).run();
 }
 
 } // namespace orb::structured

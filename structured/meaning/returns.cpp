@@ -1,4 +1,7 @@
-#include "structured/meaning/checker.h"
+#include "structured/meaning/symbols.h"
+#include "structured/text/texts.h"
+
+#include <fmt/format.h>
 
 // Functions that return no value, and subs that do: each was meant as the other.
 
@@ -31,23 +34,6 @@ void turn(const Program& program, const Names& names, std::uint32_t routine, Sym
   finding.fix = Fix{function ? texts::ItAFunction() : texts::ItASub(),
                     {{begin.word, word}, {end, "end " + word}},
                     Safety::Unsafe};
-}
-
-void Checker::check_values() {
-  if (any_error(program_.diagnostics))
-    return; // its value may be the mistake
-  for (std::uint32_t n = 1; n < names_.routines.size(); ++n) {
-    const auto& symbol = names_.symbols[names_.routines[n].symbol];
-    if (symbol.kind != SymbolKind::Function || !symbol.used || gives_value(program_, names_, n))
-      continue;
-    std::string_view value = "e"; // the last value it computes
-    const auto& begin = at(names_.routines[n].statement);
-    for (auto i = names_.routines[n].statement; i < begin.next && begin.next != none; ++i)
-      if (at(i).kind == Kind::Assign)
-        value = program_.text_of(item(at(i), 0).span);
-    report(rules::NoValue, symbol.span, texts::NeverReturns(program_.name(symbol.name)),
-           texts::AddBefore(fmt::format("return {}", value), "end function"));
-  }
 }
 
 } // namespace orb::structured
