@@ -213,7 +213,7 @@ void compile(Compiled& compiled, const compiler::Target& target,
     compiled.program.diagnostics.push_back(
         finding(rules::NothingToRun, {0, 0}, texts::NoStatements(), texts::WriteOneLine()));
   compiled.names = resolve(compiled.program);
-  check(compiled.program, compiled.names, target);
+  check(compiled.program, compiled.names);
   compiled.runs = has_program(compiled.program);
   if (compiled.has_errors() || !compiled.runs)
     return;
@@ -269,10 +269,10 @@ std::vector<std::string_view> all_words() {
 
 /// The findings of the front end about the main file, with spans from its start.
 std::vector<Diagnostic> front(const std::string& name, const std::string& path,
-                              std::string_view text, const compiler::Target& target, Files& files) {
+                              std::string_view text, Files& files) {
   auto program = read(name, path, text, files);
   const auto names = resolve(program);
-  check(program, names, target);
+  check(program, names);
   silence(program);
   return std::move(findings_by_file(program).front());
 }
@@ -287,8 +287,7 @@ bool parses(std::string_view line) {
 }
 
 /// Adds a replacement line to each error of the main file.
-void offer_lines(Compiled& compiled, std::string_view text, const compiler::Target& target,
-                 Files& files) {
+void offer_lines(Compiled& compiled, std::string_view text, Files& files) {
   auto& program = compiled.program;
   const auto main = program.files.front();
   const auto is_main = [&](const Diagnostic& d) {
@@ -303,7 +302,7 @@ void offer_lines(Compiled& compiled, std::string_view text, const compiler::Targ
   dialect.words = all_words();
   dialect.parses = parses;
   dialect.check = [&](std::string_view changed) {
-    return front(main.name, main.path, changed, target, files);
+    return front(main.name, main.path, changed, files);
   };
   repair::offer_lines(text, dialect, own);
   std::erase_if(program.diagnostics, is_main);
@@ -321,7 +320,7 @@ Compiled compile(std::string name, std::string path, std::string_view text,
   compile(compiled, target, kept, shape);
   silence(compiled.program);
   if (compiled.has_errors())
-    offer_lines(compiled, text, target, files);
+    offer_lines(compiled, text, files);
   say_lines(compiled.program.text, compiled.program.diagnostics);
   return compiled;
 }

@@ -28,7 +28,7 @@ public:
     NoFiles files;
     program_ = read("", "", lifted.text, files);
     names_ = resolve(program_);
-    check(program_, names_, {});
+    check(program_, names_);
   }
 
   /// Returns true if all loops of the text are proven; marks the others in `proofs`.

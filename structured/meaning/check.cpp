@@ -6,15 +6,15 @@
 
 namespace orb::structured {
 
-void check(Program& program, const Names& names, const compiler::Target& target) {
-  check_expressions(program, names, target);
-  check_statements(program, names, target);
-  check_jumps(program, names, target);
-  check_names(program, names, target);
+void check(Program& program, const Names& names) {
+  check_expressions(program, names);
+  check_statements(program, names);
+  check_jumps(program, names);
+  check_names(program, names);
   if (any_error(program.diagnostics))
     return;
-  check_meant(program, names, target);
-  check_loops(program, names, target);
+  check_meant(program, names);
+  check_loops(program, names);
 }
 
 std::vector<std::vector<std::uint32_t>> calls_of(const Program& program, const Names& names) {

@@ -1,14 +1,14 @@
 #pragma once
 
-#include "compiler/lint/lint.h"
+#include "base/source.h"
 #include "structured/meaning/symbols.h"
 #include "structured/text/program.h"
 
 namespace orb::structured {
 
-/// Checks statements whose names are resolved: their place, the number of their values, required
-/// constants, and features that the target lacks.
-void check(Program& program, const Names& names, const compiler::Target& target);
+/// Checks statements whose names are resolved: their place, the number of their values, and required
+/// constants.
+void check(Program& program, const Names& names);
 
 /// Calls `visit(routine, span)` with each call of a statement, in text order.
 template <typename Visit>

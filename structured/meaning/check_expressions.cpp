@@ -193,9 +193,6 @@ private:
   void check_node(const Statement& statement, std::uint32_t n, bool is_root) {
     const auto& node = program_.nodes[n];
     check_number(n, is_root);
-    if (node.kind == NodeKind::System &&
-        spec::variables[node.what].old_word != program_.text_of(node.span))
-      check_version(node.span, spec::variables[node.what].word, spec::variables[node.what].since);
     if (node.kind == NodeKind::Element)
       check_index(n);
     if (node.kind == NodeKind::Relation)
@@ -378,8 +375,8 @@ private:
 
 } // namespace
 
-void check_expressions(Program& program, const Names& names, const compiler::Target& target) {
-  ExpressionsPass(program, names, target).run();
+void check_expressions(Program& program, const Names& names) {
+  ExpressionsPass(program, names).run();
 }
 
 } // namespace orb::structured

@@ -170,8 +170,8 @@ private:
 
 } // namespace
 
-void check_jumps(Program& program, const Names& names, const compiler::Target& target) {
-  JumpsPass(program, names, target).run();
+void check_jumps(Program& program, const Names& names) {
+  JumpsPass(program, names).run();
 }
 
 } // namespace orb::structured

@@ -216,8 +216,8 @@ private:
 
 } // namespace
 
-void check_loops(Program& program, const Names& names, const compiler::Target& target) {
-  LoopsPass(program, names, target).run();
+void check_loops(Program& program, const Names& names) {
+  LoopsPass(program, names).run();
 }
 
 } // namespace orb::structured

@@ -116,8 +116,8 @@ private:
 
 } // namespace
 
-void check_meant(Program& program, const Names& names, const compiler::Target& target) {
-  MeantPass(program, names, target).run();
+void check_meant(Program& program, const Names& names) {
+  MeantPass(program, names).run();
 }
 
 } // namespace orb::structured

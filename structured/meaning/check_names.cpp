@@ -113,8 +113,8 @@ private:
 
 } // namespace
 
-void check_names(Program& program, const Names& names, const compiler::Target& target) {
-  NamesPass(program, names, target).run();
+void check_names(Program& program, const Names& names) {
+  NamesPass(program, names).run();
 }
 
 } // namespace orb::structured

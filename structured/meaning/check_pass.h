@@ -21,8 +21,7 @@ namespace orb::structured {
 /// A check of a program whose names are resolved.
 class CheckPass {
 public:
-  CheckPass(Program& program, const Names& names, const compiler::Target& target)
-      : program_(program), names_(names), target_(target) {}
+  CheckPass(Program& program, const Names& names) : program_(program), names_(names) {}
 
 protected:
   Diagnostic& report(const Rule& rule, Span span, Message message, Message help = {}) {
@@ -58,13 +57,6 @@ protected:
     return false;
   }
 
-  void check_version(Span span, std::string_view word, spec::BasicVersion since) {
-    if (since > target_.version)
-      report(compiler::rules::NewerThanTarget, span,
-             compiler::texts::NeedsVersion(word, spec::info(since).text,
-                                           spec::info(target_.version).text));
-  }
-
   /// Reads a comparison with a number; nothing for any other node.
   std::optional<compiler::Bound> bound_of(std::uint32_t relation) const {
     if (program_.nodes[relation].kind != NodeKind::Relation) // otherwise nothing may precede it
@@ -90,17 +82,16 @@ protected:
 
   Program& program_;
   const Names& names_;
-  const compiler::Target& target_;
 };
 
 // The checks, in the order in which they run.
 
-void check_expressions(Program& program, const Names& names, const compiler::Target& target);
-void check_statements(Program& program, const Names& names, const compiler::Target& target);
-void check_jumps(Program& program, const Names& names, const compiler::Target& target);
-void check_names(Program& program, const Names& names, const compiler::Target& target);
+void check_expressions(Program& program, const Names& names);
+void check_statements(Program& program, const Names& names);
+void check_jumps(Program& program, const Names& names);
+void check_names(Program& program, const Names& names);
 /// These need a program without errors.
-void check_meant(Program& program, const Names& names, const compiler::Target& target);
-void check_loops(Program& program, const Names& names, const compiler::Target& target);
+void check_meant(Program& program, const Names& names);
+void check_loops(Program& program, const Names& names);
 
 } // namespace orb::structured

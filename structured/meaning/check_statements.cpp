@@ -145,10 +145,6 @@ private:
 
   void check_robot(const Statement& statement) {
     const auto& row = spec::info(statement.robot);
-    // With two values `goroll` has its older form; the check of the robot's lines covers its go
-    // value.
-    if (statement.robot != spec::Statement::Goroll || size(statement) == row.parameters().size())
-      check_version(statement.word, row.word, row.since);
     if (statement.robot == spec::Statement::Data) {
       check_data(statement);
       return;
@@ -411,8 +407,8 @@ private:
 
 } // namespace
 
-void check_statements(Program& program, const Names& names, const compiler::Target& target) {
-  StatementsPass(program, names, target).run();
+void check_statements(Program& program, const Names& names) {
+  StatementsPass(program, names).run();
 }
 
 } // namespace orb::structured
