@@ -153,7 +153,8 @@ bool LetterFlow::grow(LetterValues& into, const LetterValues& from, std::uint32_
       continue;
     auto joined = join(into[i], from[i]);
     if (visits > patience && !(joined.range == into[i].range))
-      joined = {visits > limit ? Range{} : widen(landmarks_, into[i].range, joined.range)};
+      joined = {visits > limit ? Range{} : widen(landmarks_, into[i].range, joined.range), false,
+                false, joined.driven, joined.narrowed};
     changed = changed || !(joined == into[i]);
     into[i] = joined;
   }

@@ -1,7 +1,6 @@
 #include "compiler/analyse/value.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdlib>
 
 namespace orb::compiler {
@@ -66,7 +65,7 @@ Value result_of(spec::Function function, const Value& operand) {
   result.range = apply(function, operand.range);
   if (function == spec::Function::Rnd)
     result.dense = operand.exact;
-  else if (function == spec::Function::Abs && operand.range.has(0))
+  else if (function == spec::Function::Abs && operand.range.lo < 0 && operand.range.hi > 0)
     result.exact = operand.dense; // otherwise 0 need not occur
   if (result.range.constant()) {
     result.exact = result.dense = true;

@@ -34,7 +34,7 @@ protected:
     const auto& statement = statement_of(code);
     return !statement.error && statement.then_branch == none;
   }
-  /// True if the line has no branches either, and only the line below follows it.
+  /// True if the line has no branches and only the line below follows it.
   bool is_plain(std::uint32_t code) const {
     return is_single(code) && flow_.code[code].falls && flow_.jumps_of(flow_.code[code]).empty();
   }
@@ -46,13 +46,16 @@ protected:
     const auto& set = program_.as<LetView>(statement).variable;
     return set.kind == ItemKind::System && static_cast<spec::Variable>(set.value) == variable;
   }
-  /// The number assigned to a timer on the lines right above, if no time passes in between.
-  std::optional<std::int32_t> set_above(spec::Variable timer, std::uint32_t code) const {
+  /// The number assigned to a timer on the lines right above, with waits in between or without.
+  enum class Waits : std::uint8_t { Allowed, None };
+  std::optional<std::int32_t> set_above(spec::Variable timer, std::uint32_t code,
+                                        Waits waits) const {
     constexpr std::uint32_t far = 8;
     for (auto i = code; i > 0 && code - i < far; --i) {
       const auto& above = statement_of(i - 1);
+      const auto after = spec::info(above.kind).after;
       if ((i < code && flow_.code[i].target) || !is_plain(i - 1) ||
-          spec::info(above.kind).after != spec::After::Falls)
+          (after != spec::After::Falls && (after != spec::After::Waits || waits == Waits::None)))
         return std::nullopt;
       if (sets(above, timer))
         return constant_in(program_, program_.as<LetView>(above).expression);

@@ -246,7 +246,7 @@ private:
     for (auto i = jump.to; i < jump.from; ++i)
       if (sets(statement_of(i), test->sensor))
         return;
-    const auto from = set_above(test->sensor, jump.to);
+    const auto from = set_above(test->sensor, jump.to, Waits::Allowed);
     // A timer equals a number only for an instant.
     if (test->orders != Orders::Less || !from || *from <= 0 || !test->holds(0) ||
         !test->holds(*from - 1))

@@ -275,7 +275,9 @@ void ValuesPass::set(const LetView& let) {
       check_let(let);
     return;
   }
-  set_letter(let.variable.value, known_[let.expression.value]);
+  auto value = known_[let.expression.value];
+  value.narrowed = false; // from here on, it is a value as any other
+  set_letter(let.variable.value, value);
 }
 
 Range ValuesPass::rounds(const ForView& loop, const Range& start, const Range& end,

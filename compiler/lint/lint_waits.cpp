@@ -242,7 +242,8 @@ private:
       return add_inverted(statement, condition.first, row,
                           texts::ForOneReadingOnly(row.word, row.greatest),
                           fmt::format("{} = {}", row.word, row.least));
-    const auto set = is_timer(test->sensor) ? set_above(test->sensor, code) : std::nullopt;
+    const auto set =
+        is_timer(test->sensor) ? set_above(test->sensor, code, Waits::None) : std::nullopt;
     if (!set || test->holds(*set))
       return;
     const bool down = *set > 0;

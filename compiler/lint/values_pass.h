@@ -229,8 +229,8 @@ private:
   /// Reports the mistakes of a node that has just been computed.
   void check_node(const Node& node, std::uint32_t index);
 
-  /// Notes that an expression can have a value that stops the program, unless numbers and sensors
-  /// alone decide that: then a trial knows no more.
+  /// Notes that an expression can have a value that stops the program. One of numbers and sensors
+  /// alone does not count: a trial knows no more of it.
   void note_risk(std::uint32_t root);
 
   void note_use(const Node& letter) {

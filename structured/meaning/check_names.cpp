@@ -29,8 +29,6 @@ public:
 
 private:
   void check_unused() {
-    if (any_error(program_.diagnostics))
-      return; // its reader may be the mistake
     const bool runs = main_file_runs();
     for (const auto& symbol : names_.symbols) {
       if (symbol.read)
@@ -94,8 +92,6 @@ private:
   }
 
   void check_values() {
-    if (any_error(program_.diagnostics))
-      return; // its value may be the mistake
     for (std::uint32_t n = 1; n < names_.routines.size(); ++n) {
       const auto& symbol = names_.symbols[names_.routines[n].symbol];
       if (symbol.kind != SymbolKind::Function || !symbol.used || gives_value(program_, names_, n))
