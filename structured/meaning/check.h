@@ -6,8 +6,8 @@
 
 namespace orb::structured {
 
-/// Checks statements whose names are resolved: their place, the number of their values, and required
-/// constants.
+/// Checks statements whose names are resolved: their place, the number of their values, and
+/// required constants.
 void check(Program& program, const Names& names);
 
 /// Calls `visit(routine, span)` with each call of a statement, in text order.
