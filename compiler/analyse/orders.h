@@ -3,6 +3,7 @@
 #include "spec/basic.h"
 
 #include <cstdint>
+#include <initializer_list>
 
 namespace orb::compiler {
 
@@ -45,6 +46,14 @@ constexpr Orders orders_of(spec::Relation relation) {
   case spec::Relation::Greater: break;
   }
   return Orders::Greater;
+}
+
+/// The relation that holds for these; the robot has none for `<=` and `>=`.
+constexpr spec::Relation relation_of(Orders orders) {
+  for (const auto one : {spec::Relation::Equal, spec::Relation::NotEqual, spec::Relation::Less})
+    if (orders_of(one) == orders)
+      return one;
+  return spec::Relation::Greater;
 }
 
 } // namespace orb::compiler

@@ -13,6 +13,13 @@ bool fills_remainders(const Range& left, std::int32_t divisor) {
          (left.hi <= 0 || left.hi >= most);
 }
 
+/// A constant occurs, whatever it comes from.
+Value settled(Value value) {
+  if (!value.range.constant())
+    return value;
+  return {value.range, true, true, false, value.narrowed};
+}
+
 } // namespace
 
 Value join(const Value& left, const Value& right) {
@@ -29,12 +36,8 @@ Value join(const Value& left, const Value& right) {
 Value result_of(spec::Operator op, const Value& left, const Value& right) {
   Value result{apply(op, left.range, right.range)};
   result.narrowed = left.narrowed || right.narrowed;
-  const bool by_number = right.range.constant();
-  if (result.range.constant()) {
-    result.exact = result.dense = true;
-    return result;
-  }
   result.driven = left.driven || right.driven;
+  const bool by_number = right.range.constant();
   const bool exact = left.exact && right.exact && (left.range.constant() || by_number);
   const bool dense = exact && left.dense && right.dense;
   switch (op) {
@@ -57,7 +60,7 @@ Value result_of(spec::Operator op, const Value& left, const Value& right) {
   case spec::Operator::And:
   case spec::Operator::Or: break;
   }
-  return result;
+  return settled(result);
 }
 
 Value result_of(spec::Function function, const Value& operand) {
@@ -67,11 +70,7 @@ Value result_of(spec::Function function, const Value& operand) {
     result.dense = operand.exact;
   else if (function == spec::Function::Abs && operand.range.lo < 0 && operand.range.hi > 0)
     result.exact = operand.dense; // otherwise 0 need not occur
-  if (result.range.constant()) {
-    result.exact = result.dense = true;
-    result.driven = false;
-  }
-  return result;
+  return settled(result);
 }
 
 Value value_of(const Program& program, std::uint32_t node, std::span<const Value> known,

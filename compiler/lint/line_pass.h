@@ -46,8 +46,8 @@ protected:
     const auto& set = program_.as<LetView>(statement).variable;
     return set.kind == ItemKind::System && static_cast<spec::Variable>(set.value) == variable;
   }
-  /// The number assigned to a timer on the lines right above, with waits in between or without.
   enum class Waits : std::uint8_t { Allowed, None };
+  /// The number assigned to a timer on the lines right above, with waits in between or without.
   std::optional<std::int32_t> set_above(spec::Variable timer, std::uint32_t code,
                                         Waits waits) const {
     constexpr std::uint32_t far = 8;

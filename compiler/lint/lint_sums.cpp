@@ -85,7 +85,8 @@ private:
     const auto joint = condition.joint->span;
     const auto line = fmt::format("{}{}{}", program_.text_of({all.begin, joint.begin}),
                                   both ? "or" : "and", program_.text_of({joint.end, all.end}));
-    auto& d = add(rules::ConstantComparison, all, one_answer(program_.text_of(all), *answer, line));
+    const auto said = one_answer(program_.text_of(all), *answer, line);
+    auto& d = findings_.add(rules::ConstantComparison, all, said.message, said.help);
     d.fix = single_fix(d.help, joint, both ? "or" : "and", Safety::Unsafe);
   }
 
@@ -98,8 +99,12 @@ private:
     if (first == second || set_by(statement_of(i + 1)) != second ||
         letter_in(program_, value_of(statement_of(i + 1))) != first)
       return;
-    add(rules::LostExchange, statement_of(i).span,
-        lost_exchange(name_in(statement_of(i)), name_in(statement_of(i + 1)), free_name()));
+    const auto a = name_in(statement_of(i));
+    const auto b = name_in(statement_of(i + 1));
+    const auto kept = free_name(); // for the old value
+    findings_.add(rules::LostExchange, statement_of(i).span, texts::OldValueLost(a, b),
+                  texts::SaveItFirst(fmt::format("{} = {}", kept, a), fmt::format("{} = {}", a, b),
+                                     fmt::format("{} = {}", b, kept)));
   }
 
   std::string free_name() const {
@@ -143,8 +148,10 @@ private:
         fmt::format("{}{}{} * {} / {}", sum ? "(" : "", program_.text_of(dividend.span),
                     sum ? ")" : "", per_cent, program_.text_of(divisor.span));
     const auto& span = nodes[n].span;
-    add(rules::DividesFirst, span, divides_first(program_.text_of(span), line)).fix =
-        single_fix(texts::Write(line), span, line, Safety::Unsafe);
+    findings_
+        .add(rules::DividesFirst, span, texts::DiscardsRemainder(program_.text_of(span)),
+             texts::MultiplyFirst(line))
+        .fix = single_fix(texts::Write(line), span, line, Safety::Unsafe);
   }
 
   // ---- a mean of several
@@ -172,8 +179,9 @@ private:
     const auto& span = nodes[n].span;
     const auto line =
         fmt::format("({}) / {}", program_.text_of({span.begin, last.span.end}), found);
-    add(rules::DividesFirst, span,
-        {texts::OnlyLastDivided(program_.text_of(last.span), found), texts::Write(line)})
+    findings_
+        .add(rules::DividesFirst, span, texts::OnlyLastDivided(program_.text_of(last.span), found),
+             texts::Write(line))
         .fix = single_fix(texts::Write(line), span, line, Safety::Unsafe);
   }
 
@@ -206,7 +214,9 @@ private:
             products_[item.value].others = true;
     for (const auto& product : products_)
       if (product.first != nullptr && !product.others)
-        add(rules::StaysZero, product.first->span, stays_zero(name_in(*product.first)));
+        findings_.add(rules::StaysZero, product.first->span,
+                      texts::StartsAtZero(name_in(*product.first)),
+                      texts::SetAboveLoop(fmt::format("{} = 1", name_in(*product.first))));
   }
 
   // ---- a sum that restarts in each round
@@ -284,12 +294,8 @@ private:
   }
 
   void add_restart(const StatementNode& restart) {
-    add(rules::SumRestarts, restart.span,
-        sum_restarts(name_in(restart), texts::WriteAboveLoop(program_.text_of(restart.span))));
-  }
-
-  Diagnostic& add(const Rule& rule, Span span, FindingTexts said) {
-    return findings_.add(rule, span, std::move(said.message), std::move(said.help));
+    findings_.add(rules::SumRestarts, restart.span, texts::ResetInEveryIteration(name_in(restart)),
+                  texts::WriteAboveLoop(program_.text_of(restart.span)));
   }
 
   struct Product {

@@ -6,13 +6,11 @@
 #include "spec/basic.h"
 
 #include <cstdint>
-#include <fmt/format.h>
 #include <optional>
 #include <string_view>
-#include <utility>
 
-// Checks of lost results, shared by numbered and structured programs: joint results of two
-// comparisons, and the messages.
+// What the checks of numbered and of structured programs share: joint results of two comparisons,
+// and messages.
 
 namespace orb::compiler {
 
@@ -51,28 +49,6 @@ inline Span step_clause(std::string_view text, Span end, Span step) {
 /// For two comparisons with a constant result, and the likely intent.
 inline FindingTexts one_answer(std::string_view test, bool answer, std::string_view meant) {
   return {answer ? texts::AlwaysTrue(test) : texts::NeverTrue(test), texts::Write(meant)};
-}
-
-/// For `a = b`, then `b = a`; `kept` is a name for the old value.
-inline FindingTexts lost_exchange(std::string_view a, std::string_view b, std::string_view kept) {
-  return {texts::OldValueLost(a, b),
-          texts::SaveItFirst(fmt::format("{} = {}", kept, a), fmt::format("{} = {}", a, b),
-                             fmt::format("{} = {}", b, kept))};
-}
-
-/// For a percentage that divides first, and the same with the multiplication first.
-inline FindingTexts divides_first(std::string_view share, std::string_view meant) {
-  return {texts::DiscardsRemainder(share), texts::MultiplyFirst(meant)};
-}
-
-/// For a variable that is only multiplied.
-inline FindingTexts stays_zero(std::string_view name) {
-  return {texts::StartsAtZero(name), texts::SetAboveLoop(fmt::format("{} = 1", name))};
-}
-
-/// For a sum that a line of its loop resets, and the place where the reset belongs.
-inline FindingTexts sum_restarts(std::string_view name, Message where) {
-  return {texts::ResetInEveryIteration(name), std::move(where)};
 }
 
 } // namespace orb::compiler

@@ -215,10 +215,7 @@ private:
     }
     whole(relation.left);
     put(' ');
-    put(relation.comparison == Comparison::Equal      ? '='
-        : relation.comparison == Comparison::NotEqual ? '!'
-        : relation.comparison == Comparison::Less     ? '<'
-                                                      : '>');
+    put(spec::info(relation_of(relation.comparison)).symbol);
     put(' ');
     whole(relation.right);
   }

@@ -399,15 +399,8 @@ private:
     const auto sign = up ? spec::Relation::Less : spec::Relation::Greater;
     side(relation.left, !on_left ? 0 : up ? -1 : 1);
     item(compiler::ItemKind::Relation,
-         static_cast<std::uint32_t>(moves ? sign : plain(relation.comparison)), here_);
+         static_cast<std::uint32_t>(moves ? sign : relation_of(relation.comparison)), here_);
     side(relation.right, !moves || on_left ? 0 : up ? 1 : -1);
-  }
-
-  static spec::Relation plain(Comparison comparison) {
-    return comparison == Comparison::Equal      ? spec::Relation::Equal
-           : comparison == Comparison::NotEqual ? spec::Relation::NotEqual
-           : comparison == Comparison::Less     ? spec::Relation::Less
-                                                : spec::Relation::Greater;
   }
 
   void side(std::uint32_t term, std::int32_t added) {

@@ -10,9 +10,9 @@ void check(Program& program, const Names& names) {
   check_expressions(program, names);
   check_statements(program, names);
   check_jumps(program, names);
-  check_names(program, names);
   if (any_error(program.diagnostics))
-    return;
+    return; // what uses a name, or leaves a loop, may be the mistake
+  check_names(program, names);
   check_meant(program, names);
   check_loops(program, names);
 }

@@ -21,8 +21,6 @@ public:
   using CheckPass::CheckPass;
 
   void run() {
-    if (any_error(program_.diagnostics))
-      return; // what uses a name or gives a value may be the mistake
     check_unused();
     check_values();
   }

@@ -89,8 +89,8 @@ protected:
 void check_expressions(Program& program, const Names& names);
 void check_statements(Program& program, const Names& names);
 void check_jumps(Program& program, const Names& names);
-void check_names(Program& program, const Names& names);
 /// These need a program without errors.
+void check_names(Program& program, const Names& names);
 void check_meant(Program& program, const Names& names);
 void check_loops(Program& program, const Names& names);
 
