@@ -38,7 +38,7 @@ set(ORB_NOT_SHOWN "cli/commands/(completion|decode|disasm|encode|fmt|lift|man|sp
   "cli/commands/robot/(abort|calibrate|checkup|commit|doctor|drive|erase|exec|info)\\.cpp" cli/editors/
   reference/cheatsheet reference/manual "run/calibrate/(measuring_drive|fit)" serve/page_server
   structured/lift/ testing/judge testing/replay testing/run_ testing/sighting "testing/verdicts/(merge|pupils|render|render_[^j]+|render_json|report|table)\\.cpp")
-# Joined by themselves: folders whose private names the rest of their module has too, and those that the demo leaves out.
+# Joined by themselves: folders whose private names the rest of their module has too.
 set(ORB_APART editor/dap editor/languages/basic editor/languages/macro editor/languages/structured editor/languages/test
   editor/lsp editor/printed run/calibrate structured/lift testing/text testing/verdicts vm/api vm/machine vm/macros vm/machine/native)
 
@@ -57,20 +57,17 @@ function(orb_join target)
         string(REPLACE "/" "_" group ${folder})
       endif()
     endforeach()
-    # What the demo has compiled is not compiled again.
-    foreach(path IN LISTS ORB_NOT_SHOWN)
-      if(source MATCHES "^${path}")
-        string(APPEND group _not_shown)
-        break()
-      endif()
-    endforeach()
     math(EXPR part "(0${count_${group}}) / 30")
     math(EXPR count_${group} "0${count_${group}} + 1")
     set_source_files_properties(${ORB_ROOT}/${source} PROPERTIES UNITY_GROUP ${group}_${part})
   endforeach()
   # Two warnings are for files alone: here a name of another file may be hidden, and no file is the main one.
-  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP UNITY_BUILD_CODE_BEFORE_INCLUDE
-    "#pragma GCC diagnostic ignored \"-Wshadow\"\n#pragma GCC diagnostic ignored \"-Wsubobject-linkage\"")
+  set(before "#pragma GCC diagnostic ignored \"-Wshadow\"")
+  if(CMAKE_CXX_COMPILER_ID STREQUAL GNU)
+    string(APPEND before "\n#pragma GCC diagnostic ignored \"-Wsubobject-linkage\"")
+  endif()
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP
+    UNITY_BUILD_CODE_BEFORE_INCLUDE "${before}")
 endfunction()
 
 # orb_library(<folder> [JSON] [PUBLIC lib...] [PRIVATE lib...]): the static library of one folder, all its .cpp files,
