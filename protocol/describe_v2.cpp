@@ -78,6 +78,12 @@ std::string values(const Fields& fields, What what, ByteView data) {
 
 } // namespace
 
+std::string_view kind_of(const PacketV2& packet) {
+  return spec::has(packet.flags, spec::V2Flag::Response) ? "response"
+         : is_message(packet)                            ? "message"
+                                                         : "command";
+}
+
 std::string_view name_of(const PacketV2& packet) {
   if (is_message(packet))
     if (const auto* message = spec::find_v2_message(packet.did, packet.cid))
@@ -194,13 +200,9 @@ std::string DescriberV2::describe(const ItemV2& item) {
     return fmt::format("bad checksum {}, expected {:02X}", to_hex(item.raw), item.right_checksum);
   case ItemV2::Kind::Packet: break;
   }
-  const auto is_response = spec::has(packet.flags, spec::V2Flag::Response);
   const auto name = name_of(packet);
-  auto out = fmt::format("{}{}{}: flags {:02X} ({})",
-                         is_response          ? "response"
-                         : is_message(packet) ? "message"
-                                              : "command",
-                         name.empty() ? "" : " ", name, packet.flags, flag_names(packet.flags));
+  auto out = fmt::format("{}{}{}: flags {:02X} ({})", kind_of(packet), name.empty() ? "" : " ",
+                         name, packet.flags, flag_names(packet.flags));
   if (!packet.extended_flags.empty())
     out += fmt::format(", extended flags {}", to_hex(packet.extended_flags));
   if (spec::has(packet.flags, spec::V2Flag::HasTarget))
@@ -210,7 +212,7 @@ std::string DescriberV2::describe(const ItemV2& item) {
     out += fmt::format(", sid {:02X} (port {}, node {})", packet.source, packet.source >> 4,
                        packet.source & 15);
   out += fmt::format(", did {:02X}, cid {:02X}, seq {:02X}", packet.did, packet.cid, packet.seq);
-  if (is_response) {
+  if (spec::has(packet.flags, spec::V2Flag::Response)) {
     const auto* error = spec::find_v2_error(packet.error);
     out += fmt::format(", err {:02X} ({})", packet.error,
                        error == nullptr ? "unknown" : error->meaning);

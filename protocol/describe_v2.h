@@ -38,6 +38,9 @@ private:
   std::map<Token, std::vector<Service>> services_;
 };
 
+/// `command`, `response`, or `message`: what a robot says unasked.
+std::string_view kind_of(const PacketV2& packet);
+
 /// Returns the name of the command or message; empty if no row has it.
 std::string_view name_of(const PacketV2& packet);
 

@@ -115,8 +115,7 @@ private:
 std::string_view v2_kind_name(const protocol::ItemV2& item) {
   using Kind = protocol::ItemV2::Kind;
   switch (item.kind) {
-  case Kind::Packet:
-    return spec::has(item.packet.flags, spec::V2Flag::Response) ? "response" : "command";
+  case Kind::Packet: return kind_of(item.packet);
   case Kind::Noise: return "noise";
   case Kind::BadChecksum: return "bad-checksum";
   case Kind::Incomplete: return "incomplete";
@@ -124,9 +123,8 @@ std::string_view v2_kind_name(const protocol::ItemV2& item) {
   return "";
 }
 
-Json logged_json(const protocol::ItemV2& item, const std::string& when, const std::string& robot,
-                 protocol::DescriberV2& describer) {
-  auto json = logged_at(when, robot);
+Json v2_packet_json(protocol::DescriberV2& describer, const protocol::ItemV2& item) {
+  Json json;
   json["kind"] = v2_kind_name(item);
   if (item.kind == protocol::ItemV2::Kind::Packet) {
     const auto& packet = item.packet;
@@ -200,11 +198,18 @@ private:
   };
 
   void print(Half& half) {
-    while (const auto item = half.decoder.next())
-      if (as_json_)
-        print_json(logged_json(*item, when_, robot_, describer_));
-      else
+    while (const auto item = half.decoder.next()) {
+      if (!as_json_) {
         print_out(fmt::format("{}{}\n", half.prefix, describer_.describe(*item)));
+        continue;
+      }
+      const auto packet = v2_packet_json(describer_, *item);
+      auto json = logged_at(when_, robot_);
+      const bool answers = packet["kind"] == "response" || packet["kind"] == "message";
+      json["from"] = answers || &half == &from_ball_ ? "ball" : "client";
+      json.update(packet);
+      print_json(json);
+    }
   }
 
   bool as_json_;
