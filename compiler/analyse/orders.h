@@ -2,8 +2,10 @@
 
 #include "spec/basic.h"
 
+#include <array>
 #include <cstdint>
 #include <initializer_list>
+#include <string_view>
 
 namespace orb::compiler {
 
@@ -54,6 +56,13 @@ constexpr spec::Relation relation_of(Orders orders) {
     if (orders_of(one) == orders)
       return one;
   return spec::Relation::Greater;
+}
+
+/// The sign of a comparison that holds for these. `unequal` is the one for less and greater: `!` on
+/// a line of the robot, `<>` in a structured program.
+constexpr std::string_view sign_of(Orders orders, std::string_view unequal) {
+  constexpr std::array<std::string_view, 7> signs{"", "<", "=", "<=", ">", "", ">="};
+  return orders == Orders::NotEqual ? unequal : signs[static_cast<std::size_t>(orders)];
 }
 
 } // namespace orb::compiler

@@ -247,7 +247,7 @@ private:
     if (!test)
       return;
     const Span all{comparison.left.span.begin, comparison.right.span.end};
-    const SensorQuestion question{test->sensor, test->orders, test->number, false};
+    const SensorQuestion question{test->sensor, test->orders, test->number, false, "!"};
     const auto answer = judge(question, program_.text_of(all), timers_);
     if (!answer)
       return;

@@ -4,21 +4,16 @@
 #include "compiler/text/rules.h"
 #include "compiler/text/texts.h"
 
-#include <array>
 #include <fmt/format.h>
 
 namespace orb::compiler {
 namespace {
 
-std::string_view symbol_of(Orders orders) {
-  constexpr std::array<std::string_view, 7> symbols{"", "<", "=", "<=", ">", "!", ">="};
-  return symbols[static_cast<std::size_t>(orders)];
-}
-
 SensorAnswer in_unit(const SensorQuestion& question, const spec::VariableInfo& row,
                      const spec::SmallUnit& unit) {
   const auto meant = question.number * unit.in_whole;
-  const auto line = fmt::format("{} {} {}", row.word, symbol_of(question.orders), meant);
+  const auto line =
+      fmt::format("{} {} {}", row.word, sign_of(question.orders, question.unequal), meant);
   return {&rules::WrongUnit,
           texts::CountsIn(row.word, unit.unit, fmt::format("{} {}", question.number, unit.whole),
                           meant),

@@ -33,7 +33,8 @@ struct SensorQuestion {
   spec::Variable sensor;
   Orders orders;
   std::int32_t number;
-  bool has_unit; ///< a unit is written behind the number
+  bool has_unit;            ///< a unit is written behind the number
+  std::string_view unequal; ///< the sign of the language, as for `sign_of()`
 };
 
 struct SensorAnswer {

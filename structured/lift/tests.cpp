@@ -3,7 +3,6 @@
 #include "compiler/analyse/reading.h"
 #include "structured/lift/effects.h"
 
-#include <array>
 #include <cstdlib>
 #include <fmt/format.h>
 
@@ -12,11 +11,6 @@ namespace {
 
 using compiler::Holds;
 using compiler::Orders;
-
-std::string_view sign_of(compiler::Orders orders) {
-  constexpr std::array<std::string_view, 7> signs{"", "<", "=", "<=", ">", "<>", ">="};
-  return signs[static_cast<std::size_t>(orders)];
-}
 
 std::int32_t step_of(const compiler::Program& program, const compiler::ForView& loop) {
   if (loop.step == nullptr)
@@ -59,7 +53,7 @@ std::string LiftedTests::relation(std::uint32_t step, const compiler::Comparison
     return computed ? helper(step, first + nth, "seen") : values_.text(item);
   };
   auto left = side(comparison.left, 0);
-  const auto sign = sign_of(orders_of(comparison, negated ? Holds::No : Holds::Yes));
+  const auto sign = sign_of(orders_of(comparison, negated ? Holds::No : Holds::Yes), "<>");
   return fmt::format("{} {} {}", left, sign, side(comparison.right, 1));
 }
 
@@ -100,7 +94,7 @@ std::string LiftedTests::is_over(std::uint32_t step, bool negated) {
   const auto loop = program_.as<compiler::ForView>(statement_of(program_, ways_, step));
   const auto over = step_of(program_, loop) > 0 ? Orders::Greater : Orders::Less;
   return fmt::format("{} {} {}", values_.letter_read(loop.variable.value),
-                     sign_of(negated ? opposite(over) : over), end_of(step, loop));
+                     sign_of(negated ? opposite(over) : over, "<>"), end_of(step, loop));
 }
 
 /// The end of a loop: a number, or the variable that stores it.

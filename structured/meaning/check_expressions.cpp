@@ -228,11 +228,15 @@ private:
       return;
     const auto comparison = static_cast<Comparison>(nodes[n].what);
     const auto sensor = static_cast<spec::Variable>(nodes[sensor_right ? right : left].what);
-    const compiler::SensorQuestion question{
-        sensor, sensor_right ? mirrored(comparison) : comparison, number->value, number->duration};
+    const compiler::SensorQuestion question{sensor,
+                                            sensor_right ? mirrored(comparison) : comparison,
+                                            number->value, number->duration, "<>"};
     const auto answer = compiler::judge(question, program_.text_of(nodes[n].span), timers_);
-    if (answer)
-      report(*answer->rule, nodes[n].span, answer->message, answer->help);
+    if (!answer)
+      return;
+    auto& d = report(*answer->rule, nodes[n].span, answer->message, answer->help);
+    if (!answer->line.empty())
+      d.fix = Fix{d.help, {{nodes[n].span, answer->line}}, Safety::Unsafe};
   }
 
   /// Reports `1 / 2`, which is 0.
