@@ -279,49 +279,53 @@ struct Cause {
   Reason reason;
   std::string_view found; ///< any of these
   std::string_view first; ///< the first word of the line; `1`: a statement with values
-  const Rule* rule;
+  const Rule* rule; ///< `missing`: a malformed line, also told what stands there instead
   const orb::Text* text;
-  std::string_view filler = {}; ///< of its hole; empty: the token, `1`: the first word, `0`: the previous one
+  std::string_view filler = {}; ///< of its hole, or one of the three below; empty: it has none
   const orb::Text* help = nullptr;
 };
+constexpr std::string_view found_token = "?";
+constexpr std::string_view first_word_of_line = "1";
+constexpr std::string_view word_before_it = "0";
 
 using enum Reason;
 constexpr const Rule* malformed_line = &rules::MalformedLine;
+constexpr const Rule* missing = nullptr;
 constexpr auto causes = std::to_array<Cause>({
     {Trailing, "=", "array", malformed_line, &texts::NoInitialValues, {}, &texts::SetEach},
     {Trailing, "+", "print", malformed_line, &texts::NoConcatenation, {}, &texts::PartsSideBySide},
-    {Trailing, ":", "", &rules::ForeignWord, &texts::DoesNotSeparate, {}, &texts::OnePerLine},
+    {Trailing, ":", "", &rules::ForeignWord, &texts::DoesNotSeparate, found_token, &texts::OnePerLine},
     {Trailing, "ms s min", "", malformed_line, &texts::UnitFollows},
     {Trailing, "", "loop", malformed_line, &texts::TakesNoCount, "loop", &texts::RepeatCounts},
-    {Trailing, "", "1", malformed_line, &texts::EndsBefore, {}, &texts::SeparateValues},
-    {Trailing, "", "", malformed_line, &texts::EndsBefore},
-    {ExpectedStatement, "", "", malformed_line, &texts::MissingStatement},
+    {Trailing, "", "1", malformed_line, &texts::EndsBefore, found_token, &texts::SeparateValues},
+    {Trailing, "", "", malformed_line, &texts::EndsBefore, found_token},
+    {ExpectedStatement, "", "", missing, &texts::MissingStatement},
     {ExpectedExpression, "#", "", malformed_line, &texts::ColourNoValue, {}, &texts::ColourAfterRgb},
     {ExpectedPlace, "(", "for", &rules::ForeignWord, &texts::ForCounts},
-    {ExpectedPlace, "", "", malformed_line, &texts::MissingPlace},
-    {ExpectedName, "", "", malformed_line, &texts::MissingName},
+    {ExpectedPlace, "", "", missing, &texts::MissingPlace},
+    {ExpectedName, "", "", missing, &texts::MissingName},
     {ExpectedEquals, "", "for", &rules::ForeignWord, &texts::ForCounts},
-    {ExpectedEquals, "", "", malformed_line, &texts::Missing, "="},
-    {ExpectedThen, "", "", malformed_line, &texts::Missing, "then", &texts::ThenOnItsOwn},
-    {ExpectedTo, "", "", malformed_line, &texts::Missing, "to"},
+    {ExpectedEquals, "", "", missing, &texts::Missing, "="},
+    {ExpectedThen, "", "", missing, &texts::Missing, "then", &texts::ThenOnItsOwn},
+    {ExpectedTo, "", "", missing, &texts::Missing, "to"},
     {ExpectedComma, "", "", malformed_line, &texts::TooFewValues},
-    {ExpectedBracket, "( =", "", malformed_line, &texts::MissingBracket, {}, &texts::SizeInBrackets},
-    {ExpectedBracket, "", "", malformed_line, &texts::MissingBracket},
-    {ExpectedParenthesis, ",", "1", malformed_line, &texts::NoParentheses, "1", &texts::RemoveParentheses},
-    {ExpectedParenthesis, "", "", malformed_line, &texts::MissingParenthesis},
-    {ExpectedOperand, "", "", malformed_line, &texts::ArgumentInParentheses, "0"},
-    {ExpectedOne, "", "", &rules::ArgumentCount, &texts::TakesOneValue},
-    {ExpectedTwo, "", "", &rules::ArgumentCount, &texts::TakesTwoValues},
+    {ExpectedBracket, "( =", "", missing, &texts::MissingBracket, {}, &texts::SizeInBrackets},
+    {ExpectedBracket, "", "", missing, &texts::MissingBracket},
+    {ExpectedParenthesis, ",", "1", malformed_line, &texts::NoParentheses, first_word_of_line, &texts::RemoveParentheses},
+    {ExpectedParenthesis, "", "", missing, &texts::MissingParenthesis},
+    {ExpectedOperand, "", "", malformed_line, &texts::ArgumentInParentheses, word_before_it},
+    {ExpectedOne, "", "", &rules::ArgumentCount, &texts::TakesOneValue, found_token},
+    {ExpectedTwo, "", "", &rules::ArgumentCount, &texts::TakesTwoValues, found_token},
     {ExpectedQuote, "", "", malformed_line, &compiler::texts::UnterminatedString},
-    {ExpectedFile, "", "", malformed_line, &texts::MissingPath},
-    {NotAStatement, "", "", malformed_line, &texts::NoStatementBegins},
+    {ExpectedFile, "", "", missing, &texts::MissingPath},
+    {NotAStatement, "", "", malformed_line, &texts::NoStatementBegins, found_token},
     {TooManyArguments, "", "", &rules::ArgumentCount, &texts::TooManyValues},
-    {FractionOfMillisecond, "", "", &rules::BadNumber, &texts::NoWholeMilliseconds},
+    {FractionOfMillisecond, "", "", &rules::BadNumber, &texts::NoWholeMilliseconds, found_token},
     {TooDeep, "", "", &rules::NestingDepth, &texts::BracketsTooDeep, {}, &compiler::texts::ComputeSeparately},
     {NestedIf, "", "", &rules::MisplacedStatement, &texts::IfInOneLine, {}, &texts::InnerIfBelow},
-    {BlockInOneLine, "", "", &rules::MisplacedStatement, &texts::NotInOneLine, {}, &texts::StatementBelow},
-    {Gosub, "", "", &rules::ForeignWord, &compiler::texts::ThereIsNo, {}, &texts::SubInstead},
-    {On, "", "", &rules::ForeignWord, &compiler::texts::ThereIsNo, {}, &texts::SelectInstead},
+    {BlockInOneLine, "", "", &rules::MisplacedStatement, &texts::NotInOneLine, found_token, &texts::StatementBelow},
+    {Gosub, "", "", &rules::ForeignWord, &compiler::texts::ThereIsNo, found_token, &texts::SubInstead},
+    {On, "", "", &rules::ForeignWord, &compiler::texts::ThereIsNo, found_token, &texts::SelectInstead},
     {SecondIndex, "", "", malformed_line, &texts::OneIndex, {}, &texts::TableOf},
 });
 
@@ -340,17 +344,17 @@ std::optional<Diagnostic> cause_of(const Program& program, Reason reason, Span f
   });
   if (row == causes.end())
     return std::nullopt;
-  const auto filler = row->filler == "1"   ? first
-                      : row->filler == "0" ? program.text_of(word_before(program.text, found.begin))
-                      : row->filler.empty() ? text
-                                            : row->filler;
-  const bool filled = row->text->english.find('{') != std::string_view::npos;
-  Message said(*row->text,
-               std::vector<Message>(filled ? 1 : 0, Message::as_is(std::string(filler))));
-  const auto help = row->help == nullptr ? Message() : Message(*row->help, {});
-  return row->text->english.starts_with("missing")
-             ? malformed(program, found, std::move(said), help)
-             : finding(*row->rule, found, std::move(said), help);
+  std::vector<Message> fillers;
+  if (!row->filler.empty())
+    fillers.push_back(Message::as_is(std::string(
+        row->filler == found_token          ? text
+        : row->filler == first_word_of_line ? first
+        : row->filler == word_before_it ? program.text_of(word_before(program.text, found.begin))
+                                        : row->filler)));
+  Message said(*row->text, std::move(fillers));
+  auto help = row->help == nullptr ? Message() : Message(*row->help, {});
+  return row->rule == missing ? malformed(program, found, std::move(said), std::move(help))
+                              : finding(*row->rule, found, std::move(said), std::move(help));
 }
 
 } // namespace
