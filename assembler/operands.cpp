@@ -298,8 +298,10 @@ void Operands::out_of_range(std::int64_t value, const Value& number, Span span,
 
 std::string Operands::read_text(const Value& value) {
   if (value.kind != Value::Kind::Text) {
-    findings_.add(rules::OutOfRange, value.span, texts::CommentNeedsText(),
-                  texts::Write(fmt::format("comment \"{}\"", program_.text_of(value.span))));
+    const auto quoted = fmt::format("\"{}\"", program_.text_of(value.span));
+    auto& d = findings_.add(rules::OutOfRange, value.span, texts::CommentNeedsText(),
+                            texts::Write("comment " + quoted));
+    d.fix = Fix{d.help, {{value.span, quoted}}, Safety::Unsafe};
     return {};
   }
   const auto quoted = program_.text_of(value.span);

@@ -278,11 +278,14 @@ private:
     if (ends && whole(from).size() > 1)
       return; // ends the program on purpose, after an error
     const auto number = number_of(last);
-    findings_.add(rules::NeverReturns, program_.items[jump.item].span,
-                  texts::LineNeverReturns(number_of(jump.to)),
-                  flow_.code[last].falls
-                      ? texts::AddBelowLine("return", number)
-                      : texts::WriteReturnInstead(number, program_.text_of(end.span)));
+    auto& d = findings_.add(rules::NeverReturns, program_.items[jump.item].span,
+                            texts::LineNeverReturns(number_of(jump.to)));
+    if (flow_.code[last].falls) {
+      d.help = texts::AddBelowLine("return", number);
+    } else {
+      d.help = texts::WriteReturnInstead(number, program_.text_of(end.span));
+      d.fix = single_fix(d.help, end.span, "return", Safety::Unsafe);
+    }
   }
 
   static bool is_return(const StatementNode& node) {

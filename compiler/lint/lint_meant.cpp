@@ -152,10 +152,12 @@ private:
     }
     if (!turn || !rolls || std::int64_t{*turn} * *last != full_turn)
       return;
-    findings_.add(
-        rules::ExtraTurn, Span{loop.variable.span.begin, loop.end.span.end},
-        texts::TurnsOnceMore(*last + 1, *last, *turn),
-        texts::Write(fmt::format("for {} = 1 to {}", program_.text_of(loop.variable.span), *last)));
+    const Span counted{loop.variable.span.begin, loop.end.span.end};
+    const auto meant = fmt::format("{} = 1 to {}", program_.text_of(loop.variable.span), *last);
+    auto& d =
+        findings_.add(rules::ExtraTurn, counted, texts::TurnsOnceMore(*last + 1, *last, *turn),
+                      texts::Write("for " + meant));
+    d.fix = single_fix(d.help, counted, meant, Safety::Unsafe);
   }
 
   /// The first `next` below a line; 0 if there is none.
@@ -234,8 +236,11 @@ private:
     const auto name = program_.text_of(test.left.span);
     auto& d = findings_.add(rules::LoopRunsOnce, statement_of(only->code).span,
                             texts::EndsAfterOne(name, *value));
-    if (*value < 0)
-      d.help = texts::Write(stepped(program_, name, '-', -std::int64_t{*value}));
+    if (*value >= 0)
+      return;
+    const auto step = stepped(program_, name, '-', -std::int64_t{*value});
+    d.help = texts::Write(step);
+    d.fix = single_fix(d.help, statement_of(only->code).span, step, Safety::Unsafe);
   }
 
   /// A timer that counts down past the value that a loop waits for, and stays at 0.
@@ -333,10 +338,12 @@ private:
     auto& d = findings_.add(rules::ConstantComparison, span_of(comparison),
                             texts::NoRollLeadsThere(text));
     const auto at = text.find(spec::info(test->sensor).word);
-    if (at != std::string::npos && !along && !test->holds(up ? far : -far))
-      d.help = texts::Write(text.replace(
-          at, spec::info(test->sensor).word.size(),
-          spec::info(test->sensor == Variable::Xpos ? Variable::Ypos : Variable::Xpos).word));
+    if (at == std::string::npos || along || test->holds(up ? far : -far))
+      return;
+    text.replace(at, spec::info(test->sensor).word.size(),
+                 spec::info(test->sensor == Variable::Xpos ? Variable::Ypos : Variable::Xpos).word);
+    d.help = texts::Write(text);
+    d.fix = single_fix(d.help, span_of(comparison), text, Safety::Unsafe);
   }
 
   // ---- the minimum and maximum of readings

@@ -64,13 +64,13 @@ private:
     if (has_unit(found) || (is_error(found) && raise_what_was_feared(statement)) ||
         is_said(found, statement))
       return;
+    if (found.fix && !std::all_of(found.fix->edits.begin(), found.fix->edits.end(),
+                                  [&](const Edit& edit) { return is_typed(edit.span); }))
+      found.fix.reset();
     put_into_source_words(found, statement);
     std::erase_if(found.notes, [&](const Note& note) {
       return &statement_at(note.span.begin) == &statement || is_of_test(note);
     });
-    if (found.fix && !std::all_of(found.fix->edits.begin(), found.fix->edits.end(),
-                                  [&](const Edit& edit) { return is_typed(edit.span); }))
-      found.fix.reset();
     program_.diagnostics.push_back(std::move(found));
   }
 
@@ -276,8 +276,9 @@ private:
       sum = fmt::format("{} + {}", name, turn - step % turn);
     found.span = statement.span;
     found.message.refill(0, Message::as_is(std::string(name)));
-    found.help = texts::Write(fmt::format("{} = ({}) % {}", name, sum, turn));
-    found.fix.reset();
+    const auto line = fmt::format("{} = ({}) % {}", name, sum, turn);
+    found.help = texts::Write(line);
+    found.fix = Fix{found.help, {{statement.span, line}}, Safety::Unsafe};
   }
 
   Program& program_;

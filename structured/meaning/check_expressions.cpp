@@ -308,11 +308,13 @@ private:
       return;
     const auto number = program_.text_of(nodes[side].span);
     const Span asked{nodes[other].span.begin, nodes[other - 1].span.begin};
-    report(rules::NumberAsCondition, nodes[side].span,
-           nodes[side].value == 0 ? texts::NeverTrue(number) : texts::AlwaysTrue(number),
-           nodes[other].kind == NodeKind::Relation
-               ? texts::Write(fmt::format("{}{}", program_.text_of(asked), number))
-               : Message());
+    auto& d = report(rules::NumberAsCondition, nodes[side].span,
+                     nodes[side].value == 0 ? texts::NeverTrue(number) : texts::AlwaysTrue(number));
+    if (nodes[other].kind != NodeKind::Relation)
+      return;
+    const auto comparison = fmt::format("{}{}", program_.text_of(asked), number);
+    d.help = texts::Write(comparison);
+    d.fix = Fix{d.help, {{nodes[side].span, comparison}}, Safety::Unsafe};
   }
 
   /// Reports 2147483648 without a minus sign before it.

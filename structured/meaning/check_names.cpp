@@ -67,13 +67,13 @@ private:
     const auto meant = symbol.kind == SymbolKind::Variable && name.size() >= clear
                            ? closest(name, others)
                            : std::nullopt;
-    Message help;
-    if (meant) {
-      const auto line = at(symbol.statement).span;
-      help = texts::Write(fmt::format("{}{}{}", program_.text_of({line.begin, symbol.span.begin}),
+    auto& d = report(rules::UnusedName, symbol.span, unused(name));
+    if (!meant)
+      return;
+    const auto line = at(symbol.statement).span;
+    d.help = texts::Write(fmt::format("{}{}{}", program_.text_of({line.begin, symbol.span.begin}),
                                       *meant, program_.text_of({symbol.span.end, line.end})));
-    }
-    report(rules::UnusedName, symbol.span, unused(name), std::move(help));
+    d.fix = Fix{d.help, {{symbol.span, std::string(*meant)}}, Safety::Unsafe};
   }
 
   bool in_main_file(Span span) const {

@@ -185,10 +185,12 @@ private:
     const Span rest{speed.span.end, item(statement, size(statement) - 1).span.end};
     const auto& named = is_heading ? speed : heading;
     const auto name = program_.text_of(named.span);
-    report(rules::SwappedValues, named.span,
-           is_heading ? texts::SpeedHere(name) : texts::HeadingHere(name),
-           texts::Write(fmt::format("goroll {}, {}{}", program_.text_of(speed.span),
-                                    program_.text_of(heading.span), program_.text_of(rest))));
+    const auto values =
+        fmt::format("{}, {}", program_.text_of(speed.span), program_.text_of(heading.span));
+    auto& d = report(rules::SwappedValues, named.span,
+                     is_heading ? texts::SpeedHere(name) : texts::HeadingHere(name),
+                     texts::Write(fmt::format("goroll {}{}", values, program_.text_of(rest))));
+    d.fix = Fix{d.help, {{{heading.span.begin, speed.span.end}, values}}, Safety::Unsafe};
   }
 
   void help_backwards(const Statement& statement, Diagnostic& d) {

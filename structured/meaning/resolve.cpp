@@ -378,17 +378,18 @@ private:
                              : symbol.kind == SymbolKind::Function ? texts::ReturnGivesValue()
                              : symbol.kind == SymbolKind::Array    ? texts::NeedsIndex()
                                                                    : texts::NotAssigned());
-      if (d != nullptr && symbol.kind == SymbolKind::Function && statement.kind == Kind::Assign &&
-          statement.operation == Statement::none_operation)
-        d->help = texts::Write(fmt::format(
-            "return {}", program_.text_of(program_.items[statement.items_begin + 1].span)));
       if (d != nullptr && symbol.kind == SymbolKind::Constant)
         make_variable(symbol, *d);
-      if (d != nullptr && symbol.kind == SymbolKind::Sub && statement.kind == Kind::Assign &&
-          statement.operation == Statement::none_operation)
-        d->help = texts::Write(
-            fmt::format("{}({})", program_.text_of(node.span),
-                        program_.text_of(program_.items[statement.items_begin + 1].span)));
+      const bool routine = symbol.kind == SymbolKind::Function || symbol.kind == SymbolKind::Sub;
+      if (d != nullptr && routine && statement.kind == Kind::Assign &&
+          statement.operation == Statement::none_operation) {
+        const auto value = program_.text_of(program_.items[statement.items_begin + 1].span);
+        const auto line = symbol.kind == SymbolKind::Function
+                              ? fmt::format("return {}", value)
+                              : fmt::format("{}({})", program_.text_of(node.span), value);
+        d->help = texts::Write(line);
+        d->fix = Fix{d->help, {{statement.span, line}}, Safety::Unsafe};
+      }
     } else if (element && (statement.kind == Kind::For)) {
       report(rules::WrongUse, node.span, texts::LoopNoElement());
     }
@@ -462,8 +463,10 @@ private:
                          ? compiler::texts::TakesOneFound(name, count)
                          : compiler::texts::TakesFound(name, routine.parameters, count));
     const auto& header = program_.statements[routine.statement];
-    if (routine.parameters == 0 && symbol.kind == SymbolKind::Sub)
+    if (routine.parameters == 0 && symbol.kind == SymbolKind::Sub) {
       d.help = texts::Write(name);
+      d.fix = Fix{d.help, {{span, std::string(name)}}, Safety::Unsafe};
+    }
     if (count < routine.parameters)
       d.help = texts::ArgumentMissing(
           program_.name(names_.symbols[routine.first_parameter + count].name),
