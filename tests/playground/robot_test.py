@@ -9,7 +9,7 @@ import sys
 import time
 import unittest
 
-from page_test import by_id, chromium, click, events, folder, fragment, idle, mock_bluetooth, mock_serial, note_violations, open_flash, orb, outcome, ready, site_server, wait
+from page_test import by_id, chromium, click, events, folder, fragment, idle, mock_bluetooth, mock_serial, note_violations, open_flash, orb, outcome, ready, site_server, stop, wait
 
 names = {"bolt": "SB-1234", "mini": "SM-1234", "sprk+": "SK-1234", "rvr": "RV-1234", "r2d2": "D2-1234", "ollie": "2B-1234", "bb9e": "GB-1234"}
 # The workers of the page.
@@ -124,6 +124,18 @@ class Robot(unittest.TestCase):
         self.assertIn("ouch", page.evaluate(events))
         self.stands_within(1)
         self.stays()
+
+    def test_a_collision_is_listed_while_it_drives(self):
+        for name, program in endless.items():
+            with self.subTest(name):
+                page = self.drive({name: program}, "bolt")
+                self.until_it_drives(page)
+                self.wire.tell("push 180 255")
+                page.wait(f"({events}).some(words => words.startsWith('collision'))", 10)
+                self.assertFalse(page.evaluate(idle))
+                page.evaluate(stop)
+                self.over(page, "has been stopped")
+                self.assertEqual(len([words for words in page.evaluate(events) if words.startswith("collision")]), 1)
 
     def test_what_was_done_last_still_arrives(self):
         page = self.drive({"a.js": js("drawMatrixPixel({ r: 255, g: 0, b: 0 }, { x: 1, y: 1 });\n" * 8 + "setBackLed({ r: 9, g: 9, b: 9 });\nsetSpeed(200);")}, "bolt")

@@ -15,6 +15,9 @@ const none = () => ({ pose: { t: [], x: [], y: [], heading: [], speed: [] }, led
 /** Output for people rather than the robot, as the list of events shows it. */
 const words_of = { __proto__: null, print: text => text, speak: text => text, sound: path => `♪ ${path}`, animation: path => `★ ${path}`, note: () => "" };
 
+/** What the robot counts, as the list of events shows one more of it. */
+const counted = { bumps: { kind: "bump", text: "hit something" }, collisions: { kind: "collision", text: "collision" } };
+
 /** `call` calls the engine; `post(event, data)` sends to the page. */
 export function make_machine({ call, post }) {
   let run = null;
@@ -34,8 +37,10 @@ export function make_machine({ call, post }) {
   function post_frame() {
     const { state, more } = picture(run), fresh = run.said.slice(run.told);
     run.told = run.said.length;
-    if (state.bumps > run.bumps) fresh.push({ t: microseconds(state.t), kind: "bump", text: "hit something" });
-    run.bumps = state.bumps;
+    for (const [count, event] of Object.entries(counted)) {
+      if (state[count] > run.shown[count]) fresh.push({ t: microseconds(state.t), ...event });
+      run.shown[count] = state[count];
+    }
     more.events = fresh;
     const { x, y, heading, speed } = state;
     post("frame", { ms: state.t * 1000, pose: { x, y, heading, speed }, prints: fresh.filter(({ kind }) => kind === "print").map(({ text }) => `${text}\n`).join(""), more });
@@ -78,7 +83,7 @@ export function make_machine({ call, post }) {
     forget();
     const made = trial !== undefined ? call("trial_robot", { number: trial, kind })
       : call("robot", { kind, seed, ...advertised === undefined ? {} : { advertised }, ...course ? { course } : {} });
-    run = { robot: made.robot, kind: made.kind, of: made.title, table, seed, title, live, trial, said: [], told: 0, shown: {}, bumps: 0, began: performance.now() / 1000 };
+    run = { robot: made.robot, kind: made.kind, of: made.title, table, seed, title, live, trial, said: [], told: 0, shown: { bumps: 0, collisions: 0 }, began: performance.now() / 1000 };
     const on = (what, seconds, ...values) => {
       const text = words_of[what]?.(...values) ?? "";
       if (trial !== undefined && is_print(what)) call("trial_print", { robot: made.robot, text: `${text}\n` });
