@@ -48,13 +48,14 @@ struct Input {
   std::string warning;            ///< set for a truncated capture
 };
 
-/// The beginning of what is printed of a packet: when, and of which robot.
-Json logged_at(const std::string& when, const std::string& robot) {
+/// The beginning of what is printed of a packet: when, of which robot, and who sent it.
+Json logged_at(const std::string& when, const std::string& robot, std::string_view from) {
   Json json;
   if (!when.empty())
     json["at"] = when;
   if (!robot.empty())
     json["robot"] = robot;
+  json["from"] = from;
   return json;
 }
 
@@ -96,8 +97,7 @@ private:
   void print(const Item& item) {
     if (!as_json_)
       return print_out(fmt::format("{}{}\n", prefix_, describer_.describe(item)));
-    auto json = logged_at(when_, robot_);
-    json["from"] = from_;
+    auto json = logged_at(when_, robot_, from_);
     json.update(packet_json(describer_, item));
     print_json(json);
   }
@@ -203,11 +203,11 @@ private:
         print_out(fmt::format("{}{}\n", half.prefix, describer_.describe(*item)));
         continue;
       }
-      const auto packet = v2_packet_json(describer_, *item);
-      auto json = logged_at(when_, robot_);
-      const bool answers = packet["kind"] == "response" || packet["kind"] == "message";
-      json["from"] = answers || &half == &from_ball_ ? "ball" : "client";
-      json.update(packet);
+      // Nobody else answers, even where the direction of the bytes was only guessed.
+      const bool speaks =
+          item->kind == protocol::ItemV2::Kind::Packet && kind_of(item->packet) != "command";
+      auto json = logged_at(when_, robot_, speaks || &half == &from_ball_ ? "ball" : "client");
+      json.update(v2_packet_json(describer_, *item));
       print_json(json);
     }
   }
@@ -288,8 +288,7 @@ void print_greeting(const LogLine& line, const std::string& prefix, const std::s
     return print_out(fmt::format("{}greeting {}\n", prefix,
                                  is_word ? fmt::format("\"{}\"", text) : to_hex(line.bytes)));
   }
-  auto json = logged_at(line.when, robot);
-  json["from"] = "client";
+  auto json = logged_at(line.when, robot, "client");
   json["kind"] = "greeting";
   json["raw"] = to_hex(line.bytes);
   print_json(json);
