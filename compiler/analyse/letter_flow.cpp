@@ -1,6 +1,8 @@
 #include "compiler/analyse/letter_flow.h"
 
 #include <algorithm>
+#include <numeric>
+#include <utility>
 
 namespace orb::compiler {
 namespace {
@@ -19,8 +21,11 @@ void join_into(LetterValues& into, const LetterValues& from) {
 void LetterFlow::keep(std::uint32_t code) {
   if (block_of_[code] != none)
     return;
+  std::vector<std::uint32_t> letters(program_.letters);
+  std::iota(letters.begin(), letters.end(), 0U);
   block_of_[code] = static_cast<std::uint32_t>(blocks_.size());
-  blocks_.emplace_back().code = code;
+  blocks_.push_back(code);
+  states_.add_block(letters);
 }
 
 bool LetterFlow::prepare() {
@@ -42,19 +47,19 @@ bool LetterFlow::prepare() {
     if (line.kind != NodeKind::Number || line.value > 0)
       return false; // it may wake up at any line
   }
-  find_routines();
-  if (routines_.size() > most_routines)
+  if (!find_routines())
     return false;
   find_landmarks();
   return true;
 }
 
-void LetterFlow::find_routines() {
+/// Returns false if there are too many.
+bool LetterFlow::find_routines() {
   for (std::uint32_t i = 0; i < flow_.code.size(); ++i)
     if (flow_.code[i].called)
       routines_.emplace_back().entry = i;
   if (routines_.size() > most_routines)
-    return;
+    return false;
   for (auto& routine : routines_)
     read_routine(routine);
   const auto written_by_routine = [&](std::uint32_t entry) {
@@ -72,6 +77,14 @@ void LetterFlow::find_routines() {
         routine.written = all;
       }
   }
+  for (const auto& routine : routines_) {
+    std::vector<std::uint32_t> written;
+    for (std::uint32_t letter = 0; letter < program_.letters; ++letter)
+      if ((routine.written & bit(letter)) != 0)
+        written.push_back(letter);
+    states_.add_routine(block_of_[routine.entry], std::move(written));
+  }
+  return true;
 }
 
 void LetterFlow::read_routine(Routine& routine) {
@@ -117,93 +130,37 @@ void LetterFlow::find_landmarks() {
           for (auto n = program_.nodes[item.value].first; n <= item.value; ++n)
             if (program_.nodes[n].kind == NodeKind::Number)
               named.push_back(program_.nodes[n].value);
-  landmarks_ = landmarks_of(std::move(named));
+  states_.set_landmarks(landmarks_of(std::move(named)));
 }
 
-const LetterValues* LetterFlow::before(std::uint32_t code) const {
-  const auto& block = blocks_[block_of_[code]];
-  return block.reached ? &block.letters : nullptr;
-}
-
-void LetterFlow::wait(std::uint32_t block) {
-  blocks_[block].waiting = true;
-  first_waiting_ = std::min(first_waiting_, block);
+bool LetterFlow::load(std::uint32_t code, LetterValues& letters) const {
+  states_.load(block_of_[code], letters);
+  return states_.reaches(block_of_[code]);
 }
 
 void LetterFlow::enter(std::uint32_t code, const LetterValues& letters) {
-  if (code >= block_of_.size() || block_of_[code] == none)
-    return; // no line, or one reached from the line above
-  auto& block = blocks_[block_of_[code]];
-  if (!block.reached) {
-    block.reached = true;
-    block.letters = letters;
-    wait(block_of_[code]);
-    return;
-  }
-  if (grow(block.letters, letters, block.visits))
-    wait(block_of_[code]);
-}
-
-bool LetterFlow::grow(LetterValues& into, const LetterValues& from, std::uint32_t visits) const {
-  constexpr std::uint32_t patience = 2;
-  constexpr std::uint32_t limit = 24;
-  bool changed = false;
-  for (std::size_t i = 0; i < program_.letters; ++i) {
-    if (into[i] == from[i])
-      continue;
-    auto joined = join(into[i], from[i]);
-    if (visits > patience && !(joined.range == into[i].range))
-      joined = {visits > limit ? Range{} : widen(landmarks_, into[i].range, joined.range), false,
-                false, joined.driven, joined.narrowed};
-    changed = changed || !(joined == into[i]);
-    into[i] = joined;
-  }
-  return changed;
+  if (code < block_of_.size() &&
+      is_kept(code)) // otherwise no line, or only the line above leads there
+    states_.enter(block_of_[code], letters);
 }
 
 bool LetterFlow::call(std::uint32_t entry, std::uint32_t from, LetterValues& letters) {
   const auto routine = std::find_if(routines_.begin(), routines_.end(),
                                     [&](const Routine& one) { return one.entry == entry; });
-  if (routine == routines_.end())
-    return false;
-  enter(entry, letters);
-  const auto block = block_of_[from];
-  if (std::find(routine->callers.begin(), routine->callers.end(), block) == routine->callers.end())
-    routine->callers.push_back(block);
-  if (!routine->returned)
-    return false;
-  for (std::size_t i = 0; i < program_.letters; ++i)
-    if ((routine->written & bit(i)) != 0)
-      letters[i] = routine->letters[i];
-  return true;
+  return routine != routines_.end() &&
+         states_.call(static_cast<std::uint32_t>(routine - routines_.begin()), block_of_[from],
+                      letters);
 }
 
 void LetterFlow::leave(std::uint32_t code, const LetterValues& letters) {
-  for (auto& routine : routines_) {
-    if (routine.lines[code] == 0)
-      continue;
-    // The result of a recursive routine would grow by a step each time.
-    const bool changed = !routine.returned || grow(routine.letters, letters, routine.growths);
-    if (!routine.returned)
-      routine.letters = letters;
-    routine.growths += changed ? 1 : 0;
-    routine.returned = true;
-    if (changed)
-      for (const auto caller : routine.callers)
-        wait(caller);
-  }
+  for (std::uint32_t i = 0; i < routines_.size(); ++i)
+    if (routines_[i].lines[code] != 0)
+      states_.leave(i, letters);
 }
 
 std::uint32_t LetterFlow::take() {
-  for (; first_waiting_ < blocks_.size(); ++first_waiting_) {
-    auto& block = blocks_[first_waiting_];
-    if (!block.waiting)
-      continue;
-    block.waiting = false;
-    ++block.visits;
-    return block.code;
-  }
-  return none;
+  const auto block = states_.take();
+  return block == none ? none : blocks_[block];
 }
 
 } // namespace orb::compiler

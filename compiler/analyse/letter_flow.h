@@ -1,7 +1,7 @@
 #pragma once
 
 #include "compiler/analyse/flow.h"
-#include "compiler/analyse/value.h"
+#include "compiler/analyse/states.h"
 #include "spec/limits.h"
 
 #include <array>
@@ -33,8 +33,8 @@ inline LetterValues all_zero() {
 /// Joins the values of another path into `into`.
 void join_into(LetterValues& into, const LetterValues& from);
 
-/// The fixed point of a data-flow analysis: keeps the state of the letters at the lines where paths
-/// meet. The caller evaluates the lines between.
+/// What is known of the letters at the lines where paths meet. The caller evaluates the lines
+/// between.
 class LetterFlow {
 public:
   LetterFlow(const Program& program, const Flow& flow) : program_(program), flow_(flow) {}
@@ -44,8 +44,8 @@ public:
   bool prepare();
 
   bool is_kept(std::uint32_t code) const { return block_of_[code] != none; }
-  /// The state before a kept line; null if it is unreachable.
-  const LetterValues* before(std::uint32_t code) const;
+  /// Sets the letters to the state before a kept line; returns false if it is unreachable.
+  bool load(std::uint32_t code, LetterValues& letters) const;
 
   /// Adds a path that reaches the line with this state.
   void enter(std::uint32_t code, const LetterValues& letters);
@@ -59,41 +59,25 @@ public:
   std::uint32_t take();
 
 private:
-  struct Block {
-    std::uint32_t code = 0;
-    std::uint32_t visits = 0;
-    bool reached = false;
-    bool waiting = false;
-    LetterValues letters;
-  };
   struct Routine {
     std::uint32_t entry = 0;
     LetterSet written = 0;
-    bool returned = false;
-    LetterValues letters;               ///< at its returns
-    std::uint32_t growths = 0;          ///< how often the state grew
-    std::vector<std::uint32_t> callers; ///< blocks
     std::vector<std::uint8_t> lines;    ///< lines of its body
     std::vector<std::uint32_t> callees; ///< entries
   };
 
   void keep(std::uint32_t code);
-  void find_routines();
+  bool find_routines();
   void read_routine(Routine& routine);
   LetterSet written_by(std::uint32_t code) const;
   void find_landmarks();
-  void wait(std::uint32_t block);
-  /// Joins the state of another path into `into`, widening further with each visit. Returns true if
-  /// that changed it.
-  bool grow(LetterValues& into, const LetterValues& from, std::uint32_t visits) const;
 
   const Program& program_;
   const Flow& flow_;
   std::vector<std::uint32_t> block_of_; ///< by line of code, or none
-  std::vector<Block> blocks_;
+  std::vector<std::uint32_t> blocks_;   ///< the first line of each
   std::vector<Routine> routines_;
-  std::vector<std::int32_t> landmarks_; ///< numbers at which widened ranges stop first, ascending
-  std::uint32_t first_waiting_ = 0;
+  States<Value> states_; ///< by block and routine
 };
 
 } // namespace orb::compiler

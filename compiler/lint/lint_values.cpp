@@ -115,7 +115,7 @@ void ValuesPass::follow() {
 }
 
 void ValuesPass::follow(std::uint32_t begin) {
-  now_ = *ways_.before(begin);
+  ways_.load(begin, now_);
   block_ = begin;
   for (auto i = begin; i < flow_.code.size(); ++i) {
     if (i > begin && ways_.is_kept(i)) {

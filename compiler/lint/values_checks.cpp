@@ -40,9 +40,7 @@ void ValuesPass::take_up(std::uint32_t code) {
   if (!ways_.is_kept(code))
     return;
   block_ = code;
-  if (const auto* known = ways_.before(code))
-    now_ = *known;
-  else
+  if (!ways_.load(code, now_))
     forget_letters();
 }
 

@@ -1,7 +1,6 @@
 #include "structured/analyse/ranges.h"
 
 #include <algorithm>
-#include <bit>
 #include <limits>
 
 namespace orb::structured {
@@ -48,22 +47,24 @@ Range Ranges::range_of(std::uint32_t term, const VariableRanges& state) const {
 
 // ---- precomputed facts
 
-/// Finds the variables whose values matter at the start of each block.
+/// Finds the variables whose values matter at the start of each block, and after each call.
 void Ranges::find_tracked() {
   const auto liveness = read_liveness(code_, flow_, Counting::SettingsToo);
-  begins_.reserve(flow_.blocks.size() + 1);
+  std::vector<std::uint32_t> variables;
+  const auto add = [&](std::uint32_t v) { variables.push_back(v); };
   for (std::uint32_t b = 0; b < flow_.blocks.size(); ++b) {
-    begins_.push_back(static_cast<std::uint32_t>(tracked_.size()));
-    each_member(liveness.in[b], [&](std::uint32_t v) { tracked_.push_back(v); });
+    variables.clear();
+    each_member(liveness.in[b], add);
+    states_.add_block(variables);
   }
-  begins_.push_back(static_cast<std::uint32_t>(tracked_.size()));
-  known_.resize(tracked_.size());
-  returns_.resize(code_.routines.size());
-  for (std::size_t r = 0; r < returns_.size(); ++r)
+  for (std::size_t r = 0; r < code_.routines.size(); ++r) {
+    variables.clear();
     each_member(flow_.written[r], [&](std::uint32_t v) {
       if (contains(liveness.at_return[r], v))
-        returns_[r].written.push_back(v);
+        add(v);
     });
+    states_.add_routine(flow_.entries[r], variables);
+  }
 }
 
 /// The thresholds of widening: numbers in tests, loops and assignments, and their neighbours.
@@ -74,7 +75,7 @@ void Ranges::find_landmarks() {
       each_root(code_, line, [&](std::uint32_t root) {
         each_number(code_, root, [&](std::int32_t value) { named.push_back(value); });
       });
-  landmarks_ = compiler::landmarks_of(std::move(named));
+  states_.set_landmarks(compiler::landmarks_of(std::move(named)));
 }
 
 void Ranges::find_data() {
@@ -105,9 +106,6 @@ bool Ranges::follow() {
         element_readers_.push_back(b);
         break;
       }
-  reached_.assign(blocks, false);
-  visits_.assign(blocks, 0);
-  waiting_.assign((blocks + 63) / 64, 0);
   ends_.assign(code_.labels, Range{greatest_value, least_value});
   nexts_.assign(code_.labels, none);
   for (std::uint32_t b = 0; b < blocks; ++b)
@@ -118,61 +116,20 @@ bool Ranges::follow() {
   following_ = true;
   state_.assign(code_.variables.size(), Range::only(0));
   enter(0, state_);
-  while (first_waiting_ < waiting_.size()) {
-    auto& word = waiting_[first_waiting_];
-    if (word == 0) {
-      ++first_waiting_;
-      continue;
-    }
-    const auto bit = static_cast<std::uint32_t>(std::countr_zero(word));
-    word &= word - 1;
-    visit(static_cast<std::uint32_t>(first_waiting_ * 64) + bit);
-  }
+  for (auto b = states_.take(); b != none; b = states_.take())
+    visit(b);
   following_ = false;
   return true;
 }
 
-void Ranges::wait(std::uint32_t b) {
-  insert(waiting_, b);
-  first_waiting_ = std::min<std::size_t>(first_waiting_, b / 64);
-}
-
-void Ranges::load(std::uint32_t b, VariableRanges& state) const {
-  for (auto i = begins_[b]; i < begins_[b + 1]; ++i)
-    state[tracked_[i]] = known_[i];
-}
-
 void Ranges::enter(std::uint32_t b, const VariableRanges& state) {
-  if (b == none)
-    return;
-  constexpr std::uint32_t patience = 2;
-  constexpr std::uint32_t limit = 64;
-  bool changed = !reached_[b];
-  for (auto i = begins_[b]; i < begins_[b + 1]; ++i) {
-    const auto& now = state[tracked_[i]];
-    if (!reached_[b]) {
-      known_[i] = now;
-      continue;
-    }
-    auto joined = compiler::join(known_[i], now);
-    if (joined == known_[i])
-      continue;
-    if (visits_[b] > limit)
-      joined = {};
-    else if (visits_[b] > patience)
-      joined = compiler::widen(landmarks_, known_[i], joined);
-    known_[i] = joined;
-    changed = true;
-  }
-  reached_[b] = true;
-  if (changed)
-    wait(b);
+  if (b != none)
+    states_.enter(b, state);
 }
 
 void Ranges::visit(std::uint32_t b) {
-  ++visits_[b];
   const auto& block = flow_.blocks[b];
-  load(b, state_);
+  states_.load(b, state_);
   for (auto i = block.begin; i < block.end; ++i)
     if (!step(b, code_.lines[i], state_))
       return;
@@ -184,23 +141,20 @@ void Ranges::visit(std::uint32_t b) {
 /// Executes a line on the state; returns false if its call has not returned yet.
 bool Ranges::step(std::uint32_t b, const CodeLine& line, VariableRanges& state) {
   if (const auto callee = callee_of(line); callee != none)
-    return call(callee, state, b);
+    return following_ ? states_.call(callee, b, state) : states_.load_returned(callee, state);
   set(line, state);
   return true;
 }
 
 /// Joins a value into the range of all array elements; blocks that read one are visited again.
 void Ranges::set_element(Range range) {
-  constexpr std::uint32_t patience = 4;
-  auto joined = compiler::join(elements_, range);
+  const auto joined = compiler::join(elements_, range);
   if (!following_ || joined == elements_)
     return;
-  elements_ = ++growths_ > 4 * patience ? Range{}
-              : growths_ > patience     ? compiler::widen(landmarks_, elements_, joined)
-                                        : joined;
+  elements_ = compiler::widened(states_.landmarks(), elements_, joined, ++growths_ / 2);
   for (const auto b : element_readers_)
-    if (reached_[b])
-      wait(b);
+    if (reaches(b))
+      states_.wait(b);
 }
 
 void Ranges::set(const CodeLine& line, VariableRanges& state) {
@@ -216,8 +170,8 @@ void Ranges::set(const CodeLine& line, VariableRanges& state) {
     const auto joined = compiler::join(ends_[line.label], end);
     if (following_ && !(joined == ends_[line.label])) {
       ends_[line.label] = joined;
-      if (const auto next = nexts_[line.label]; next != none && reached_[next])
-        wait(next); // it now leaves the loop with another value
+      if (const auto next = nexts_[line.label]; next != none && reaches(next))
+        states_.wait(next); // it now leaves the loop with another value
     }
     state[line.variable] = line.step > 0 ? Range{begin.lo, std::max(begin.hi, end.hi)}
                                          : Range{std::min(begin.lo, end.lo), begin.hi};
@@ -228,19 +182,6 @@ void Ranges::set(const CodeLine& line, VariableRanges& state) {
       else if (code_.parts[i].kind == PartKind::Element)
         set_element(line.robot == spec::Statement::Read ? data_ : Range{});
   }
-}
-
-/// Changes `state` to that after the call of a routine; returns false if it has not returned yet.
-bool Ranges::call(std::uint32_t routine, VariableRanges& state, std::uint32_t from) {
-  auto& returned = returns_[routine];
-  if (following_) {
-    enter(flow_.entries[routine], state);
-    if (std::find(returned.callers.begin(), returned.callers.end(), from) == returned.callers.end())
-      returned.callers.push_back(from);
-  }
-  for (std::size_t i = 0; i < returned.known.size(); ++i)
-    state[returned.written[i]] = returned.known[i];
-  return returned.yet;
 }
 
 // ---- edges between blocks
@@ -256,26 +197,9 @@ void Ranges::leave(std::uint32_t b, const CodeLine& line, VariableRanges& state)
   if (line.kind == LineKind::On)
     return leave_on(line, state);
   if (line.kind == LineKind::Return)
-    return leave_routine(line.routine, state);
+    return states_.leave(line.routine, state);
   for (const auto next : flow_.successors_of(block))
     enter(next, state);
-}
-
-/// Joins the state at a return; if it changed, the callers are visited again.
-void Ranges::leave_routine(std::uint32_t routine, const VariableRanges& state) {
-  auto& returned = returns_[routine];
-  bool changed = !returned.yet;
-  returned.known.resize(returned.written.size());
-  for (std::size_t i = 0; i < returned.written.size(); ++i) {
-    const auto& now = state[returned.written[i]];
-    const auto joined = returned.yet ? compiler::join(returned.known[i], now) : now;
-    changed = changed || !(joined == returned.known[i]);
-    returned.known[i] = joined;
-  }
-  returned.yet = true;
-  if (changed)
-    for (const auto caller : returned.callers)
-      wait(caller);
 }
 
 bool Ranges::narrow(const Relation& relation, Comparison comparison, VariableRanges& state) const {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "compiler/analyse/range.h"
+#include "compiler/analyse/states.h"
 #include "structured/analyse/flow.h"
 
 #include <optional>
@@ -28,7 +28,7 @@ public:
   bool narrow(const Relation& relation, Comparison comparison, VariableRanges& state) const;
 
   /// True if a block is reachable.
-  bool reaches(std::uint32_t block) const { return reached_[block]; }
+  bool reaches(std::uint32_t block) const { return states_.reaches(block); }
 
   /// Calls `visit(line, state)` with each reachable line and the state before it, and `end(block,
   /// state)` with the state at the end of each block that completes.
@@ -36,9 +36,9 @@ public:
   void each_state(Visit visit, End end) {
     VariableRanges state(code_.variables.size());
     for (std::uint32_t b = 0; b < flow_.blocks.size(); ++b) {
-      if (!reached_[b])
+      if (!reaches(b))
         continue;
-      load(b, state); // an untracked variable is set before it is read
+      states_.load(b, state); // an untracked variable is set before it is read
       bool on = true;
       for (auto i = flow_.blocks[b].begin; on && i < flow_.blocks[b].end; ++i) {
         visit(i, state);
@@ -56,30 +56,18 @@ public:
   const Flow& flow() const { return flow_; }
 
 private:
-  /// The state after the calls of a routine.
-  struct Returned {
-    std::vector<std::uint32_t> written; ///< variables that it sets and that are live afterwards
-    std::vector<compiler::Range> known; ///< their ranges
-    std::vector<std::uint32_t> callers; ///< blocks
-    bool yet = false;                   ///< it returns
-  };
-
   void find_tracked();
   void find_landmarks();
   void find_data();
 
-  void load(std::uint32_t b, VariableRanges& state) const;
   void enter(std::uint32_t b, const VariableRanges& state);
-  void wait(std::uint32_t b);
   void visit(std::uint32_t b);
 
   void set_element(compiler::Range range);
   bool step(std::uint32_t b, const CodeLine& line, VariableRanges& state);
   void set(const CodeLine& line, VariableRanges& state);
-  bool call(std::uint32_t routine, VariableRanges& state, std::uint32_t from);
 
   void leave(std::uint32_t b, const CodeLine& line, VariableRanges& state);
-  void leave_routine(std::uint32_t routine, const VariableRanges& state);
   void leave_if(std::uint32_t b, const CodeLine& line, VariableRanges& state);
   void leave_next(std::uint32_t b, const CodeLine& line, VariableRanges& state);
   void leave_switch(const CodeLine& line, VariableRanges& state);
@@ -89,19 +77,11 @@ private:
 
   const Code& code_;
   Flow flow_;
-  std::vector<std::uint32_t> tracked_; ///< variables, block after block
-  std::vector<std::uint32_t> begins_;  ///< of each block: the start of its variables; then the end
-  std::vector<compiler::Range> known_; ///< of each tracked variable, at the start of the block
-  std::vector<bool> reached_;          ///< of each block
-  std::vector<std::uint32_t> visits_;
-  VariableRanges state_;               ///< of the current block
-  std::vector<std::uint64_t> waiting_; ///< blocks to visit, as bits
-  std::size_t first_waiting_ = 0;      ///< no word before this one has a bit set
-  bool following_ = false;             ///< before the fixed point
-  std::vector<compiler::Range> ends_;  ///< of each loop's label: its end value
-  std::vector<std::uint32_t> nexts_;   ///< of each loop's label: the block with its `next`
-  std::vector<Returned> returns_;
-  std::vector<std::int32_t> landmarks_;
+  compiler::States<compiler::Range> states_; ///< by block and routine
+  VariableRanges state_;                     ///< of the current block
+  bool following_ = false;                   ///< before the fixed point
+  std::vector<compiler::Range> ends_;        ///< of each loop's label: its end value
+  std::vector<std::uint32_t> nexts_;         ///< of each loop's label: the block with its `next`
   compiler::Range data_;
   compiler::Range elements_ = compiler::Range::only(0); ///< of all arrays
   std::vector<std::uint32_t> element_readers_;          ///< blocks
