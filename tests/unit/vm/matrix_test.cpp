@@ -3,7 +3,7 @@
 #include "vm/ball.h"
 
 #include <gtest/gtest.h>
-#include <rapidcheck.h>
+#include <rapidcheck/gtest.h>
 #include <set>
 #include <string>
 #include <utility>
@@ -422,28 +422,25 @@ TEST(Matrix, ABallTellsWhatItsMatrixShows) {
 }
 
 // The result does not depend on how often it is looked at.
-TEST(Matrix, DoesNotDependOnHowTimeIsCut) {
-  const auto same = rc::check([] {
-    auto whole = blinker(*rc::gen::arbitrary<bool>());
-    const bool text = *rc::gen::arbitrary<bool>();
-    const bool loop = *rc::gen::arbitrary<bool>();
-    if (text)
-      whole.scroll(red, *rc::gen::inRange(0, 31), loop, "orb", start);
-    else
-      whole.play(3, loop, start);
-    auto cut = whole;
-    const auto pieces = *rc::gen::container<std::vector<int>>(rc::gen::inRange(0, 700));
-    Instant at = start;
-    for (const int piece : pieces) {
-      at += std::chrono::milliseconds{piece};
-      cut.advance(at);
-    }
-    whole.advance(at);
-    RC_ASSERT(seen(cut) == seen(whole));
-    RC_ASSERT(cut.next_event() == whole.next_event());
-    RC_ASSERT(whole.next_event() > at);
-  });
-  EXPECT_TRUE(same);
+RC_GTEST_PROP(Matrix, DoesNotDependOnHowTimeIsCut, ()) {
+  auto whole = blinker(*rc::gen::arbitrary<bool>());
+  const bool text = *rc::gen::arbitrary<bool>();
+  const bool loop = *rc::gen::arbitrary<bool>();
+  if (text)
+    whole.scroll(red, *rc::gen::inRange(0, 31), loop, "orb", start);
+  else
+    whole.play(3, loop, start);
+  auto cut = whole;
+  const auto pieces = *rc::gen::container<std::vector<int>>(rc::gen::inRange(0, 700));
+  Instant at = start;
+  for (const int piece : pieces) {
+    at += std::chrono::milliseconds{piece};
+    cut.advance(at);
+  }
+  whole.advance(at);
+  RC_ASSERT(seen(cut) == seen(whole));
+  RC_ASSERT(cut.next_event() == whole.next_event());
+  RC_ASSERT(whole.next_event() > at);
 }
 
 } // namespace

@@ -64,6 +64,9 @@ template <typename T>
 Gen<T> arbitrary() {
   if constexpr (std::is_integral_v<T>)
     return Gen<T>([] { return static_cast<T>(current.random()); });
+  else if constexpr (requires { typename T::first_type; })
+    return Gen<T>([first = arbitrary<typename T::first_type>(),
+                   second = arbitrary<typename T::second_type>()] { return T{*first, *second}; });
   else
     return container<T>(arbitrary<typename T::value_type>());
 }
