@@ -10,8 +10,10 @@
 namespace orb::compiler {
 namespace {
 
-/// Narrows a 64-bit range; beyond 32 bits the result wraps, so nothing is known.
+/// Narrows a 64-bit range; beyond 32 bits the result wraps, so nothing is known of several values.
 Range narrow(std::int64_t lo, std::int64_t hi) {
+  if (lo == hi)
+    return Range::only(static_cast<std::int32_t>(lo));
   if (lo < std::numeric_limits<std::int32_t>::min() ||
       hi > std::numeric_limits<std::int32_t>::max())
     return {};

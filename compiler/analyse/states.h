@@ -27,7 +27,7 @@ inline Value widened(std::span<const std::int32_t> landmarks, const Value& befor
                      const Value& joined, std::uint32_t visits) {
   if (visits <= patience || joined.range == before.range)
     return joined;
-  return {widened(landmarks, before.range, joined.range, visits), false, false, joined.driven,
+  return {widened(landmarks, before.range, joined.range, visits), false, false, joined.origin,
           joined.narrowed};
 }
 

@@ -12,9 +12,10 @@
 namespace orb::compiler {
 namespace {
 
-/// True if the program itself causes the value, so that it cannot be anything at any time.
-bool is_brought_about(const spec::VariableInfo& row) {
-  return row.unit == "ms" || row.unit == "cm" || row.variable == spec::Variable::Speed;
+Origin origin_of(const spec::VariableInfo& row) {
+  return row.unit == "ms" || row.unit == "cm" || row.variable == spec::Variable::Speed
+             ? Origin::Motion
+             : Origin::World;
 }
 
 } // namespace
@@ -23,11 +24,24 @@ void TrialLine::stop(const Rule& rule, Span span, Message message, Message help)
   if (quiet_ || stopped_)
     return;
   stopped_ = true;
-  const bool said = std::any_of(trial_.faults.begin(), trial_.faults.end(),
-                                [&](const TrialFault& one) { return one.span == span; });
-  if (!probing_ && !said)
-    trial_.faults.push_back(
-        {&rule, span, std::move(message), std::move(help), now_.decision, runs_[line_] > 1});
+  add({&rule, span, std::move(message), std::move(help), now_.decision, runs_[line_] > 1});
+}
+
+void TrialLine::warn(Span span, Message message, Message help) {
+  if (!quiet_ && !stopped_)
+    add({&rules::MayLeaveRange, span, std::move(message), std::move(help), now_.decision, true,
+         false});
+}
+
+void TrialLine::add(TrialFault fault) {
+  if (probing_)
+    return;
+  const auto said = std::find_if(trial_.faults.begin(), trial_.faults.end(),
+                                 [&](const TrialFault& one) { return one.span == fault.span; });
+  if (said == trial_.faults.end())
+    trial_.faults.push_back(std::move(fault));
+  else if (fault.certain && !said->certain)
+    *said = std::move(fault);
 }
 
 std::uint32_t TrialLine::round() const {
@@ -71,15 +85,14 @@ Value TrialLine::compute(const Node& node, std::uint32_t index) {
   case NodeKind::Indexed: return element(node.span);
   case NodeKind::System: {
     const auto& row = spec::variables[node.what];
-    return {{row.least, row.greatest}, true, true, is_brought_about(row)};
+    return {{row.least, row.greatest}, true, true, origin_of(row)};
   }
   case NodeKind::Call:
-    check_operand(spec::functions[node.what], program_.nodes[index - 1].span,
-                  known_[index - 1].range);
+    check_operand(spec::functions[node.what], program_.nodes[index - 1].span, known_[index - 1]);
     break;
   case NodeKind::Binary:
     check_right(static_cast<spec::Operator>(node.what), program_.nodes[index - 1].span,
-                known_[index - 1].range);
+                known_[index - 1]);
     break;
   case NodeKind::Number:
   case NodeKind::Group:
@@ -88,12 +101,21 @@ Value TrialLine::compute(const Node& node, std::uint32_t index) {
   return value_of(program_, index, known_);
 }
 
-void TrialLine::check_operand(const spec::FunctionInfo& row, Span span, const Range& operand) {
-  if (operand.misses(row.least, row.greatest))
-    stop_at(span, texts::TakesOrMore(row.word, row.least), operand);
+bool TrialLine::may_leave(const Value& value, std::int64_t least, std::int64_t greatest) {
+  return value.exact && value.origin == Origin::Program &&
+         (value.range.lo < least || value.range.hi > greatest);
 }
 
-void TrialLine::check_right(spec::Operator op, Span span, const Range& right) {
+void TrialLine::check_operand(const spec::FunctionInfo& row, Span span, const Value& operand) {
+  if (operand.range.misses(row.least, row.greatest))
+    stop_at(span, texts::TakesOrMore(row.word, row.least), operand.range);
+  else if (may_leave(operand, row.least, row.greatest))
+    warn(span, texts::ButCanBeOne(texts::TakesOrMore(row.word, row.least), program_.text_of(span),
+                                  operand.range.lo));
+}
+
+void TrialLine::check_right(spec::Operator op, Span span, const Value& operand) {
+  const auto& right = operand.range;
   const auto most = spec::value_of(spec::Limit::GreatestShift);
   const bool divides = op == spec::Operator::Divide || op == spec::Operator::Remainder;
   const bool shifts = op == spec::Operator::ShiftLeft || op == spec::Operator::ShiftRight;
@@ -101,6 +123,9 @@ void TrialLine::check_right(spec::Operator op, Span span, const Range& right) {
   if (divides && right == Range::only(0))
     stop(rules::MayLeaveRange, span,
          round() > 0 ? texts::DividesByZeroInRound(text, round()) : texts::DividesByZeroHere(text));
+  else if (divides && right.has(0) && operand.origin == Origin::Program &&
+           (operand.dense || (operand.exact && (right.lo == 0 || right.hi == 0))))
+    warn(span, texts::DividesByZeroAtTimes(text));
   else if (shifts && right.misses(0, most))
     stop_at(span, texts::ShiftMustBe(most), right);
 }
@@ -110,9 +135,22 @@ Value* TrialLine::selected(Span span) {
   const auto most = spec::value_of(spec::Limit::IndexedVariables);
   if (index.misses(1, most))
     stop(rules::MayLeaveRange, span, texts::UsedWhileIndexBecomes('Z', 'Y', shown(index), 1, most));
-  return index.constant() && index.lo >= 1 && index.lo <= most
+  else if (may_leave(now_.letters[index_letter], 1, most))
+    warn(span, texts::UsedWhileIndexCanBe('Z', 'Y', shown(index), 1, most));
+  return element_at_index();
+}
+
+Value* TrialLine::element_at_index() {
+  const auto& index = now_.letters[index_letter].range;
+  return index.constant() && !index.misses(1, spec::value_of(spec::Limit::IndexedVariables))
              ? &now_.elements[static_cast<std::size_t>(index.lo) - 1]
              : nullptr;
+}
+
+Value* TrialLine::variable_of(const Node& node) {
+  return node.kind == NodeKind::Letter    ? &now_.letters[node.what]
+         : node.kind == NodeKind::Indexed ? element_at_index()
+                                          : nullptr;
 }
 
 Value TrialLine::element(Span span) {
@@ -122,9 +160,15 @@ Value TrialLine::element(Span span) {
 
 void TrialLine::check_value(const Item& item, std::string_view word,
                             const spec::Parameter& parameter) {
-  const auto& range = value(item).range;
-  if (!range.misses(parameter.least, parameter.greatest))
+  const auto& found = value(item);
+  const auto& range = found.range;
+  if (!range.misses(parameter.least, parameter.greatest)) {
+    if (may_leave(found, parameter.least, parameter.greatest))
+      warn(item.span,
+           texts::ButCanBeOne(allowed_values(word, parameter), program_.text_of(item.span),
+                              range.lo < parameter.least ? range.lo : range.hi));
     return;
+  }
   Message help;
   if (parameter.unit == "deg" && range.lo > 0)
     help = texts::WriteRemainder(in_parentheses(item), parameter.greatest + 1);
@@ -139,7 +183,8 @@ std::string TrialLine::in_parentheses(const Item& item) const {
              : text;
 }
 
-void TrialLine::set(const Item& variable, const Value& to) {
+void TrialLine::set(const Item& variable, Value to) {
+  to.fresh = false;
   if (variable.kind == ItemKind::Letter) {
     now_.letters[variable.value] = to;
   } else if (variable.kind == ItemKind::Indexed) {
@@ -151,11 +196,13 @@ void TrialLine::set(const Item& variable, const Value& to) {
   }
 }
 
-void TrialLine::bind(const Item& expression) {
-  for (auto n = program_.nodes[expression.value].first; n <= expression.value; ++n)
-    if (const auto& node = program_.nodes[n]; node.kind == NodeKind::Letter)
-      if (auto& letter = now_.letters[node.what]; !letter.range.constant())
-        letter.exact = letter.dense = false;
+bool TrialLine::bind(const Item& expression) {
+  bool any = false;
+  each_variable(expression, [&](Value& one) {
+    one.ties = Ties::Shared;
+    any = true;
+  });
+  return any;
 }
 
 void TrialLine::obey(const StatementNode& statement) {
@@ -179,14 +226,14 @@ void TrialLine::obey(const StatementNode& statement) {
 }
 
 void TrialLine::let(const LetView& let) {
-  const auto result = value(let.expression);
+  auto result = value(let.expression);
   if (let.variable.kind == ItemKind::System) {
     const auto& row = spec::variables[let.variable.value];
     if (row.variable != spec::Variable::Ctrl)
       check_value(let.expression, row.word, {"", row.least, row.greatest, row.unit});
     return;
   }
-  bind(let.expression);
+  result.ties = bind(let.expression) ? Ties::Depends : Ties::None;
   set(let.variable, result);
 }
 
@@ -216,7 +263,7 @@ void TrialLine::input(const InputView& input) {
   if (input.fallback != nullptr)
     value(*input.fallback);
   const bool asks = input.fallback == nullptr; // otherwise there may be nobody to answer
-  set(input.variable, {{}, asks, asks});
+  set(input.variable, {{}, asks, asks, Origin::World});
 }
 
 } // namespace orb::compiler

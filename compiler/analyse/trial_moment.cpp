@@ -22,7 +22,8 @@ public:
   void add(const Value& value) {
     add(value.range);
     add(static_cast<std::uint64_t>(value.exact) | static_cast<std::uint64_t>(value.dense) << 1 |
-        static_cast<std::uint64_t>(value.driven) << 2);
+        static_cast<std::uint64_t>(value.ties) << 2 |
+        static_cast<std::uint64_t>(value.origin) << 4);
   }
   std::uint64_t value() const { return value_; }
 
@@ -75,8 +76,10 @@ Moment beginning(const Program& program) {
 void join_into(Moment& into, const Moment& from) {
   const auto join_all = [](std::vector<Value>& values, const std::vector<Value>& others) {
     for (std::size_t i = 0; i < values.size(); ++i)
-      if (!(values[i] == others[i]))
-        values[i] = {join(values[i].range, others[i].range)};
+      if (!(values[i] == others[i])) {
+        values[i] = join(values[i], others[i]);
+        values[i].ties = Ties::Shared;
+      }
   };
   join_all(into.letters, from.letters);
   join_all(into.elements, from.elements);

@@ -36,8 +36,10 @@ public:
       while (now_.at < flow_.code.size() && lines_ < most_lines) {
         const auto from = now_.at;
         go();
-        if (now_.at <= from && !is_new())
-          break; // an endless loop, or the same as another path
+        if (now_.at <= from && !is_new()) { // an endless loop, or the same as another path
+          note_endless();
+          break;
+        }
       }
     }
     return std::move(trial_);
@@ -48,8 +50,8 @@ private:
   static constexpr std::size_t most_ways = 64;      ///< pending paths
   static constexpr std::uint32_t most_probed =
       24; ///< lookahead in lines, for wait loops and paths that meet
-  static constexpr std::uint32_t most_joined = 16; ///< rounds in which both paths continue joined
-  static constexpr std::size_t most_targets = 8;   ///< targets of an `on` that are followed
+  static constexpr std::uint32_t most_joined = 250; ///< rounds in which both paths continue joined
+  static constexpr std::size_t most_targets = 8;    ///< targets of an `on` that are followed
 
   /// True if no path was here before with the same state: when a path returns, and when paths
   /// split.
@@ -98,8 +100,22 @@ private:
     }
     if (statement.kind == spec::Statement::Return)
       return come_back();
+    if (spec::info(statement.kind).form == spec::Form::Entry)
+      leave_unanswered(program_.as<InputView>(statement), statement.span);
     obey(statement);
     return spec::info(statement.kind).after == spec::After::Ends ? none : line_ + 1;
+  }
+
+  /// Follows also the path on which nobody answers, to its first fault.
+  void leave_unanswered(const InputView& input, Span span) {
+    if (input.fallback == nullptr || probing_ || quiet_ || ways_.size() == most_ways ||
+        !parts_anew())
+      return;
+    auto answered = now_;
+    set(input.variable, value(*input.fallback));
+    decide(now_, span, &texts::WhenNobodyAnswers);
+    now_.at = line_ + 1;
+    ways_.push_back(std::exchange(now_, std::move(answered)));
   }
 
   std::uint32_t begin_loop(const ForView& loop) {
@@ -152,7 +168,8 @@ private:
   std::uint32_t leave_or_not(Orders over) {
     const auto& open = now_.loops.back();
     const auto counter = now_.letters[open.letter].range;
-    if (!open.end.exact || !counter.constant() || is_settled(open.end.driven))
+    if (!open.end.exact || open.end.ties == Ties::Shared || !counter.constant() ||
+        is_settled(open.end.origin))
       return none;
     auto stays = now_;
     auto& loop = stays.loops.back();
@@ -162,9 +179,9 @@ private:
     auto leaves = now_;
     leaves.loops.pop_back();
     leaves.at = line_ + 1;
-    decide(stays, {}, Holds::Yes);
-    decide(leaves, {}, Holds::No);
-    const auto decider = decider_of(open.end.driven);
+    decide(stays);
+    decide(leaves);
+    const auto decider = decider_of(open.end.origin);
     return part({std::move(stays), std::move(leaves)}, decider);
   }
 
@@ -206,7 +223,8 @@ private:
       return none;
     if (selector.range.constant())
       return jump(statement, static_cast<std::uint32_t>(selector.range.lo));
-    if (!selector.dense || on.targets.size() > most_targets || is_settled(selector.driven))
+    if (!selector.dense || selector.ties == Ties::Shared || on.targets.size() > most_targets ||
+        is_settled(selector.origin))
       return none;
     const auto here = now_;
     std::vector<Moment> ways;
@@ -214,11 +232,11 @@ private:
       now_ = here;
       narrow(on.selector, Range::only(n));
       now_.at = jump(statement, static_cast<std::uint32_t>(n));
-      decide(now_, {}, Holds::Yes);
+      decide(now_);
       ways.push_back(std::move(now_));
     }
     now_ = here;
-    return part(std::move(ways), decider_of(selector.driven));
+    return part(std::move(ways), decider_of(selector.origin));
   }
 
   // ---- conditions
@@ -234,12 +252,12 @@ private:
     if (holds)
       return take(*holds ? yes : no);
     const bool meet = goes_on(*yes) && (no == nullptr || goes_on(*no));
-    const bool driven =
-        is_driven(condition.first) || (condition.second && is_driven(*condition.second));
+    const auto origin = std::max(origin_of(condition.first),
+                                 condition.second ? origin_of(*condition.second) : Origin::Program);
     const bool open = is_open(condition.first) &&
-                      (!condition.second || is_open(*condition.second)) && !is_settled(driven);
+                      (!condition.second || is_open(*condition.second)) && !is_settled(origin);
     if (!open)
-      return meet ? join_branches(*yes, no) : none;
+      return meet ? join_branches(condition, *yes, no) : join_ways(condition, *yes, no);
     const bool idle = meet && is_idle(*yes) && (no == nullptr || is_idle(*no));
     const auto here = now_;
     const auto span = span_of(condition);
@@ -249,7 +267,8 @@ private:
       stopped_ = false;
       if (!assume(condition, answer))
         continue;
-      decide(now_, span, answer);
+      decide(now_, span,
+             answer == Holds::Yes ? &texts::WhenThisHolds : &texts::WhenThisDoesNotHold);
       const auto to = take(answer == Holds::Yes ? yes : no);
       now_.at = stopped_ ? none : to;
       ways.push_back(std::move(now_));
@@ -258,15 +277,17 @@ private:
     stopped_ = false;
     if (idle)
       return line_ + 1;
-    const auto decider = waits_for_time(statement) ? Decider::Clock : decider_of(driven);
+    const auto decider = waits_for_time(statement) ? Decider::Clock : decider_of(origin);
     const auto next = part(std::move(ways), decider);
-    if (next != none || probing_ || !meet || here.decision != none || runs_[line_] > most_joined)
+    if (next != none || probing_ || here.decision != none || runs_[line_] > most_joined)
       return next;
     now_ = here; // a fault here is certain, whatever the decision
-    return join_branches(*yes, no);
+    return meet ? join_branches(condition, *yes, no) : join_ways(condition, *yes, no);
   }
 
-  static Decider decider_of(bool driven) { return driven ? Decider::Program : Decider::World; }
+  static Decider decider_of(Origin origin) {
+    return origin == Origin::Motion ? Decider::Program : Decider::World;
+  }
 
   /// True if a condition depends only on timers.
   bool waits_for_time(const StatementNode& statement) const {
@@ -291,16 +312,71 @@ private:
   }
 
   /// Joins both branches where both lead to the next line and either may be impossible.
-  std::uint32_t join_branches(const StatementNode& yes, const StatementNode* no) {
+  std::uint32_t join_branches(const IfView& condition, const StatementNode& yes,
+                              const StatementNode* no) {
     const bool quiet = std::exchange(quiet_, true);
-    const auto before = now_;
-    obey(yes);
-    const auto after = std::exchange(now_, before);
-    if (no != nullptr)
+    auto otherwise = now_;
+    const bool may_hold = assume(condition, Holds::Yes);
+    if (may_hold)
+      obey(yes);
+    std::swap(now_, otherwise);
+    const bool may_fail = assume(condition, Holds::No);
+    if (may_fail && no != nullptr)
       obey(*no);
-    join_into(now_, after);
+    if (!may_fail)
+      now_ = std::move(otherwise);
+    else if (may_hold)
+      join_way(condition, otherwise);
     quiet_ = quiet;
     return line_ + 1;
+  }
+
+  /// The same where they lead to different lines: continues where both arrive soon.
+  std::uint32_t join_ways(const IfView& condition, const StatementNode& yes,
+                          const StatementNode* no) {
+    if (probing_ || now_.decision != none)
+      return none;
+    const auto here = now_;
+    const bool quiet = std::exchange(quiet_, true);
+    std::vector<Moment> first;
+    const auto start = [&](Holds answer, const StatementNode* branch) {
+      now_ = here;
+      now_.at = assume(condition, answer) ? take(branch) : none;
+      return std::exchange(now_, here);
+    };
+    probe(start(Holds::Yes, &yes), [&] {
+      first.push_back(now_);
+      return true;
+    });
+    std::optional<Moment> meeting;
+    probe(start(Holds::No, no), [&] {
+      const auto same = std::find_if(first.begin(), first.end(), [&](const Moment& one) {
+        return one.at == now_.at && one.loops == now_.loops && one.calls == now_.calls;
+      });
+      if (same == first.end())
+        return true;
+      join_way(condition, *same);
+      meeting = now_;
+      return false;
+    });
+    quiet_ = quiet;
+    if (!meeting)
+      return none;
+    now_ = *std::move(meeting);
+    return now_.at;
+  }
+
+  /// Joins another path. What differs depends on the condition, which no later line may decide.
+  void join_way(const IfView& condition, const Moment& other) {
+    if (now_.is_like(other))
+      return;
+    join_into(now_, other);
+    bind(condition.first.left);
+    bind(condition.first.right);
+    if (condition.second) {
+      bind(condition.second->left);
+      bind(condition.second->right);
+    }
   }
 
   /// True if the statement always falls through.
@@ -341,18 +417,21 @@ private:
     const auto& right = known_[comparison.right.value];
     if (answer_of(orders, left.range, right.range))
       return true;
+    if (left.ties == Ties::Shared || right.ties == Ties::Shared)
+      return false;
     const bool equals = orders == Orders::Equal || orders == Orders::NotEqual;
     return equals ? left.dense && right.dense : left.exact && right.exact;
   }
 
-  bool is_driven(const Comparison& comparison) const {
-    return known_[comparison.left.value].driven || known_[comparison.right.value].driven;
+  Origin origin_of(const Comparison& comparison) const {
+    return std::max(known_[comparison.left.value].origin, known_[comparison.right.value].origin);
   }
 
   /// True if a value caused by the program has already decided at this line on this path. It is
   /// unknown how often it can do so.
-  bool is_settled(bool driven) const {
-    return driven && std::find(now_.driven.begin(), now_.driven.end(), line_) != now_.driven.end();
+  bool is_settled(Origin origin) const {
+    return origin == Origin::Motion &&
+           std::find(now_.driven.begin(), now_.driven.end(), line_) != now_.driven.end();
   }
 
   /// Narrows the operands to where the condition holds or not; returns false if that is impossible.
@@ -386,8 +465,8 @@ private:
     narrow(comparison.left, *left_where);
     narrow(comparison.right, *right_where);
     if (!left.constant() && !right.constant()) {
-      bind(comparison.left);
-      bind(comparison.right);
+      blur(comparison.left);
+      blur(comparison.right);
     }
     // Excluding an inner value leaves a gap.
     if (orders == Orders::NotEqual && *left_where == left)
@@ -397,21 +476,71 @@ private:
     return true;
   }
 
+  /// Forgets which ends of their ranges the variables of a tested expression take.
+  void blur(const Item& expression) {
+    each_variable(expression, [](Value& one) { one.exact = one.dense = false; });
+  }
+
   void narrow(const Item& side, const Range& to) {
-    const auto letter = letter_in(program_, side);
-    if (!letter)
-      return bind(side);
-    auto& value = now_.letters[*letter];
+    auto* const variable = variable_of(bare(program_, side));
+    if (variable == nullptr)
+      return blur(side);
+    auto& value = *variable;
     if (value.range == to)
       return;
+    if (value.ties != Ties::None)
+      for (auto* all : {&now_.letters, &now_.elements})
+        for (auto& other : *all)
+          if (other.ties == Ties::Shared && !other.range.constant())
+            other.exact = other.dense = false;
     value.range = to;
     value.exact = value.dense = value.dense || to.constant();
   }
 
+  // ---- loops that never end
+
+  /// Reports a loop on the only path whose every round is the same, at its last test that would
+  /// leave it.
+  void note_endless() {
+    if (now_.decision != none)
+      return;
+    const auto begin = now_;
+    std::vector<std::uint32_t> lines;
+    probe(begin, [&] {
+      if (!lines.empty() && now_.at == begin.at)
+        return false;
+      lines.push_back(now_.at);
+      return true;
+    });
+    const auto leaves = [&](std::uint32_t line) {
+      return std::find(lines.begin(), lines.end(), line) == lines.end();
+    };
+    for (auto line = lines.rbegin(); line != lines.rend(); ++line) {
+      const auto& code = flow_.code[*line];
+      const auto& statement = program_.statements[code.statement];
+      const auto jumps = flow_.jumps_of(code);
+      if (statement.kind == spec::Statement::If &&
+          (code.ends || (code.falls && leaves(*line + 1)) ||
+           std::any_of(jumps.begin(), jumps.end(),
+                       [&](const auto& way) { return leaves(way.to); })))
+        return add_endless(program_.as<IfView>(statement));
+    }
+  }
+
+  void add_endless(const IfView& condition) {
+    const auto letter = letter_in(program_, condition.first.left);
+    if (condition.second || !letter || !now_.letters[*letter].range.constant())
+      return;
+    const auto name = program_.text_of(condition.first.left.span);
+    add({&rules::EndlessLoop, span_of(condition),
+         texts::StaysTheSame(name, now_.letters[*letter].range.lo), texts::ChangeOnEveryWay(name),
+         none, true, false});
+  }
+
   // ---- ways
 
-  void decide(Moment& way, Span span, Holds holds) {
-    trial_.decisions.push_back({span, holds, way.decision});
+  void decide(Moment& way, Span span = {}, const orb::Text* when = nullptr) {
+    trial_.decisions.push_back({span, when, way.decision});
     way.decision = static_cast<std::uint32_t>(trial_.decisions.size() - 1);
   }
 

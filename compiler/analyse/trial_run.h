@@ -13,12 +13,12 @@ namespace orb::compiler {
 
 /// A value, unknown before the run, that decides a branch.
 struct Decision {
-  Span span; ///< empty if there is no text to point at
-  Holds holds = Holds::Yes;
-  std::uint32_t before = none; ///< the previous one, an index into Trial::decisions
+  Span span;                       ///< empty if there is no text to point at
+  const orb::Text* when = nullptr; ///< the decision, in words
+  std::uint32_t before = none;     ///< the previous one, an index into Trial::decisions
 };
 
-/// A fault that stops a program on one of its paths.
+/// What stops a program on one of its paths, or keeps it in a loop for ever.
 struct TrialFault {
   const Rule* rule = nullptr;
   Span span;
@@ -26,6 +26,7 @@ struct TrialFault {
   Message help;
   std::uint32_t decision = none; ///< the last one on the path; none: it is the only path
   bool later = false;            ///< an earlier pass of the line succeeded
+  bool certain = true;           ///< false: only some of the values stop it
 };
 
 struct Trial {

@@ -17,7 +17,7 @@ bool fills_remainders(const Range& left, std::int32_t divisor) {
 Value settled(Value value) {
   if (!value.range.constant())
     return value;
-  return {value.range, true, true, false, value.narrowed};
+  return {value.range, true, true, Origin::Program, value.narrowed};
 }
 
 } // namespace
@@ -28,17 +28,30 @@ Value join(const Value& left, const Value& right) {
   const bool whole_right = right.range == range;
   const bool exact =
       (left.exact && right.exact) || (left.exact && whole_left) || (right.exact && whole_right);
-  // Two ranges may leave a gap between them.
-  const bool dense = exact && ((left.dense && whole_left) || (right.dense && whole_right));
-  return {range, exact, dense, left.driven || right.driven, left.narrowed || right.narrowed};
+  const bool meet = left.range.lo <= std::int64_t{right.range.hi} + 1 &&
+                    right.range.lo <= std::int64_t{left.range.hi} + 1; // no gap between them
+  const bool dense = exact && ((left.dense && whole_left) || (right.dense && whole_right) ||
+                               (left.dense && right.dense && meet));
+  return {range,
+          exact,
+          dense,
+          std::max(left.origin, right.origin),
+          left.narrowed || right.narrowed,
+          left.bounded && right.bounded,
+          false,
+          std::max(left.ties, right.ties)};
 }
 
 Value result_of(spec::Operator op, const Value& left, const Value& right) {
   Value result{apply(op, left.range, right.range)};
   result.narrowed = left.narrowed || right.narrowed;
-  result.driven = left.driven || right.driven;
+  result.origin = std::max(left.origin, right.origin);
+  result.ties = std::max(left.ties, right.ties);
   const bool by_number = right.range.constant();
-  const bool exact = left.exact && right.exact && (left.range.constant() || by_number);
+  const bool from_number = left.range.constant();
+  result.fresh = (left.fresh || from_number) && (right.fresh || by_number);
+  const bool exact =
+      left.exact && right.exact && (from_number || by_number || left.fresh || right.fresh);
   const bool dense = exact && left.dense && right.dense;
   switch (op) {
   case spec::Operator::Add:
@@ -66,9 +79,11 @@ Value result_of(spec::Operator op, const Value& left, const Value& right) {
 Value result_of(spec::Function function, const Value& operand) {
   auto result = operand;
   result.range = apply(function, operand.range);
-  if (function == spec::Function::Rnd)
+  result.bounded = false;
+  if (function == spec::Function::Rnd) {
     result.dense = operand.exact;
-  else if (function == spec::Function::Abs && operand.range.lo < 0 && operand.range.hi > 0)
+    result.fresh = operand.range.constant();
+  } else if (function == spec::Function::Abs && operand.range.lo < 0 && operand.range.hi > 0)
     result.exact = operand.dense; // otherwise 0 need not occur
   return settled(result);
 }

@@ -8,13 +8,30 @@
 
 namespace orb::compiler {
 
+/// Where a value comes from. A result has the last of those of its operands.
+enum class Origin : std::uint8_t {
+  Program, ///< numbers and chance
+  World,   ///< a person or a sensor: anything at any time
+  Motion,  ///< what the program itself causes: a time, a place, a speed
+};
+
+/// What a test of a variable tells of the others.
+enum class Ties : std::uint8_t {
+  None,    ///< nothing
+  Depends, ///< something: it was computed from them
+  Shared,  ///< the same, or they were computed from it, or changed on the same path
+};
+
 /// The analysis state of a value.
 struct Value {
   Range range;
-  bool exact = false;    ///< both ends of the range are values that occur
-  bool dense = false;    ///< in addition, so are all values between, as for a sensor
-  bool driven = false;   ///< caused by the program itself: a time, a place, a speed
+  bool exact = false; ///< both ends of the range are values that occur
+  bool dense = false; ///< in addition, so are all values between, as for a sensor
+  Origin origin = Origin::Program;
   bool narrowed = false; ///< narrowed by a test, so perhaps to values that never occur
+  bool bounded = false;  ///< the test, or one as strict, is on every path
+  bool fresh = false;    ///< of numbers and chance in this expression, so independent of the rest
+  Ties ties = Ties::None;
 
   static constexpr Value only(std::int32_t number) { return {Range::only(number), true, true}; }
   friend constexpr bool operator==(const Value&, const Value&) = default;
@@ -25,7 +42,7 @@ struct Value {
 Value join(const Value& left, const Value& right);
 
 /// The result of `left op right`. Its ends occur if those of the operands do and one of them is a
-/// number: two that vary may depend on each other.
+/// number or fresh: two that vary may depend on each other.
 Value result_of(spec::Operator op, const Value& left, const Value& right);
 
 /// The result of a function.

@@ -37,6 +37,12 @@ bool warns_of(const Program& program, const Diagnostic& d, const TrialFault& fau
           d.rule == &rules::MayLeaveRange || d.rule == &rules::IndexBeforeY);
 }
 
+/// True if a finding says why a loop does not end.
+bool keeps_looping(const Diagnostic& d) {
+  return d.rule == &rules::EndlessLoop || d.rule == &rules::LoopVariableSet ||
+         d.rule == &rules::StaleSensor || d.rule == &rules::InvertedWait;
+}
+
 /// Adds the tests that lead to a fault as notes, the last one first.
 void add_ways(Diagnostic& d, const Trial& trial, std::uint32_t decision) {
   constexpr std::size_t most = 2;
@@ -45,8 +51,7 @@ void add_ways(Diagnostic& d, const Trial& trial, std::uint32_t decision) {
         one.span.size() > 0 && std::none_of(d.notes.begin(), d.notes.end(), [&](const auto& note) {
           return note.span == one.span;
         }))
-      add_note(d, one.span,
-               one.holds == Holds::Yes ? texts::WhenThisHolds() : texts::WhenThisDoesNotHold());
+      add_note(d, one.span, Message(*one.when, {}));
 }
 
 /// Reports a fault on the only path, unless a finding at its place already covers it: that finding
@@ -66,8 +71,10 @@ void add_certain(const Program& program, const TrialFault& fault, Findings& find
 void add_possible(const Program& program, const TrialFault& fault, const Trial& trial,
                   Findings& findings) {
   const auto& all = findings.all();
+  const bool endless = fault.rule == &rules::EndlessLoop;
   if (std::any_of(all.begin(), all.end(), [&](const Diagnostic& d) {
-        return (d.severity != Severity::Info && meets(d.span, fault.span)) ||
+        return (endless && keeps_looping(d)) ||
+               (d.severity != Severity::Info && meets(d.span, fault.span)) ||
                warns_of(program, d, fault);
       }))
     return;
@@ -89,7 +96,7 @@ void lint_certain(const Program& program, const Flow& flow, Findings& findings) 
       continue;
     // The other rules concern lines that fail on their first pass.
     const bool runs_first = fault.later && fault.rule != &rules::MayLeaveRange;
-    if (fault.decision == none && !runs_first)
+    if (fault.decision == none && !runs_first && fault.certain)
       add_certain(program, fault, findings);
     else
       add_possible(program, fault, trial, findings);

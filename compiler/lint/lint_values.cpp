@@ -155,15 +155,20 @@ bool ValuesPass::go(const StatementNode& statement, std::uint32_t code) {
   switch (row.form) {
   case spec::Form::Assignment: set(program_.as<LetView>(statement)); return true;
   case spec::Form::Loop: begin_loop(program_.as<ForView>(statement), code); return true;
-  case spec::Form::LoopEnd: return end_loop(program_.as<NextView>(statement));
+  case spec::Form::LoopEnd: return end_loop(program_.as<NextView>(statement), code);
   case spec::Form::Branch: return jump(statement, code);
   case spec::Form::IndexedBranch:
     if (looks)
       check_on(program_.as<OnView>(statement));
     return jump(statement, code);
   case spec::Form::Conditional:
-    if (looks)
-      check_condition(program_.as<IfView>(statement));
+    if (looks) {
+      const auto condition = program_.as<IfView>(statement);
+      check_condition(condition);
+      // A loop may depend on it.
+      at_risk_ = at_risk_ || (letter_in(program_, condition.first.left) &&
+                              flow_.code[code].jumps_begin < flow_.code[code].jumps_end);
+    }
     return go_branches(statement, code);
   case spec::Form::Output:
     if (looks)
@@ -266,7 +271,7 @@ void ValuesPass::narrow(const Item& side, const Range& from, const Range& to) {
     return;
   tested_ |= bit(*letter);
   const bool dense = now_[*letter].dense;
-  set_letter(*letter, {to, dense, dense, false, true});
+  set_letter(*letter, {to, dense, dense, Origin::Program, true, true});
 }
 
 void ValuesPass::set(const LetView& let) {
@@ -276,7 +281,7 @@ void ValuesPass::set(const LetView& let) {
     return;
   }
   auto value = known_[let.expression.value];
-  value.narrowed = false; // from here on, it is a value as any other
+  value.narrowed = value.bounded = value.fresh = false; // from here on, a value as any other
   set_letter(let.variable.value, value);
 }
 
@@ -319,7 +324,7 @@ void ValuesPass::begin_loop(const ForView& loop, std::uint32_t code) {
     *at = {code, at->letter, join(at->end, end), join(at->step, step), join(at->body, body)};
 }
 
-bool ValuesPass::end_loop(const NextView& next) {
+bool ValuesPass::end_loop(const NextView& next, std::uint32_t code) {
   if (!following_)
     check_indexed({&next.variable, 1});
   if (next.variable.kind != ItemKind::Letter)
@@ -331,8 +336,9 @@ bool ValuesPass::end_loop(const NextView& next) {
   }
   const auto before = now_;
   std::optional<Range> past;
+  const auto nearest = loop_above(letter, code);
   for (std::size_t i = 0; i < loops_.size(); ++i) {
-    if (loops_[i].letter != letter)
+    if (loops_[i].letter != letter || (nearest != none && loops_[i].code != nearest))
       continue;
     if (const auto left = next_of(loops_[i], before))
       past = past ? join(*past, *left) : *left;
@@ -342,6 +348,14 @@ bool ValuesPass::end_loop(const NextView& next) {
     return false;
   set_letter(letter, {*past});
   return true;
+}
+
+std::uint32_t ValuesPass::loop_above(std::uint32_t letter, std::uint32_t code) const {
+  auto nearest = none;
+  for (const auto& loop : loops_)
+    if (loop.letter == letter && loop.code < code && (nearest == none || loop.code > nearest))
+      nearest = loop.code;
+  return nearest;
 }
 
 std::optional<Range> ValuesPass::next_of(const Loop& loop, const LetterValues& before) {

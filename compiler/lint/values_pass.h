@@ -120,7 +120,9 @@ private:
   void begin_loop(const ForView& loop, std::uint32_t code);
 
   /// Leads `next` back to the line below each `for` of its letter that can be open.
-  bool end_loop(const NextView& next);
+  bool end_loop(const NextView& next, std::uint32_t code);
+  /// The line of the nearest `for` of a letter above a line; none if all are below.
+  std::uint32_t loop_above(std::uint32_t letter, std::uint32_t code) const;
 
   bool followed_or_following() const { return following_ || followed_; }
 
