@@ -21,14 +21,15 @@ void join_into(LetterValues& into, const LetterValues& from) {
 void LetterFlow::keep(std::uint32_t code) {
   if (block_of_[code] != none)
     return;
-  std::vector<std::uint32_t> letters(program_.letters);
+  std::vector<std::uint32_t> letters(letters_);
   std::iota(letters.begin(), letters.end(), 0U);
   block_of_[code] = static_cast<std::uint32_t>(blocks_.size());
   blocks_.push_back(code);
   states_.add_block(letters);
 }
 
-bool LetterFlow::prepare() {
+bool LetterFlow::prepare(std::uint32_t letters) {
+  letters_ = std::max(letters, program_.letters);
   const auto size = static_cast<std::uint32_t>(flow_.code.size());
   block_of_.assign(size, none);
   if (size == 0 || size > most_lines)

@@ -39,9 +39,10 @@ class LetterFlow {
 public:
   LetterFlow(const Program& program, const Flow& flow) : program_(program), flow_(flow) {}
 
-  /// Finds these lines. Returns false if the program is too large for any robot: then nothing is
+  /// Finds these lines. Keeps so many letters, at least those of the program: the others stand for
+  /// what else is known. Returns false if the program is too large for any robot: then nothing is
   /// known.
-  bool prepare();
+  bool prepare(std::uint32_t letters);
 
   bool is_kept(std::uint32_t code) const { return block_of_[code] != none; }
   /// Sets the letters to the state before a kept line; returns false if it is unreachable.
@@ -74,6 +75,7 @@ private:
 
   const Program& program_;
   const Flow& flow_;
+  std::uint32_t letters_ = 0;
   std::vector<std::uint32_t> block_of_; ///< by line of code, or none
   std::vector<std::uint32_t> blocks_;   ///< the first line of each
   std::vector<Routine> routines_;

@@ -9,10 +9,42 @@ void ValuesPass::collect_letters() {
        {spec::Statement::Let, spec::Statement::For, spec::Statement::Read, spec::Statement::Input})
     for (const auto& place : flow_.all(kind))
       collect_set(program_.statements[place.statement]);
+  find_sensors();
   unknown_ = all_zero();
   for (std::uint32_t i = 0; i < program_.letters; ++i)
     if ((set_ & bit(i)) != 0)
       unknown_[i] = {};
+}
+
+void ValuesPass::find_sensors() {
+  std::uint32_t used = program_.letters > spec::letter_count ? 0 : program_.letters;
+  for (const auto& node : program_.nodes)
+    if (node.kind == NodeKind::Letter)
+      used = std::max(used, std::uint32_t{node.what} + 1);
+  for (const auto& item : program_.items)
+    if (item.kind == ItemKind::Letter && item.value + 1 < most_letters)
+      used = std::max(used, item.value + 1);
+  std::array<std::uint8_t, spec::variables.size()> tests{};
+  after_sensors_ = first_sensor_ = used;
+  for (const auto& place : flow_.all(spec::Statement::If)) {
+    const auto sensor =
+        sensor_in(program_, program_.as<IfView>(program_.statements[place.statement]).first.left);
+    if (!sensor || spec::info(*sensor).access == spec::Access::ReadClears)
+      continue;
+    const auto n = static_cast<std::size_t>(*sensor);
+    if (++tests[n] == 2 && after_sensors_ + 1 < most_letters)
+      letter_of_sensor_[n] = static_cast<std::uint8_t>(after_sensors_++);
+  }
+}
+
+void ValuesPass::forget_sensors() {
+  std::fill(now_.begin() + first_sensor_, now_.begin() + after_sensors_, Value{});
+}
+
+LetterValues ValuesPass::at_start() const {
+  auto letters = all_zero();
+  std::fill(letters.begin() + first_sensor_, letters.begin() + after_sensors_, Value{});
+  return letters;
 }
 
 void ValuesPass::collect_set(const StatementNode& statement) {
@@ -107,7 +139,7 @@ void ValuesPass::set_letter(std::uint32_t index, const Value& value) {
 void ValuesPass::follow() {
   following_ = true;
   find_data();
-  ways_.enter(0, all_zero());
+  ways_.enter(0, at_start());
   for (auto code = ways_.take(); code != none; code = ways_.take())
     follow(code);
   following_ = false;
@@ -194,7 +226,9 @@ bool ValuesPass::go(const StatementNode& statement, std::uint32_t code) {
     else if (statement.kind == spec::Statement::Return)
       ways_.leave(code, now_);
     else if (statement.kind == spec::Statement::Reset)
-      ways_.enter(0, all_zero());
+      ways_.enter(0, at_start());
+    if (statement.kind != spec::Statement::Rgb && statement.kind != spec::Statement::Ledc)
+      forget_sensors();
     return row.after != spec::After::Ends;
   }
   return true;
@@ -267,6 +301,9 @@ bool ValuesPass::assume(const Comparison& comparison, Holds holds) {
 
 void ValuesPass::narrow(const Item& side, const Range& from, const Range& to) {
   const auto letter = letter_in(program_, side);
+  if (const auto sensor = sensor_in(program_, side))
+    if (const auto own = letter_of_sensor_[static_cast<std::size_t>(*sensor)]; own != 0)
+      now_[own] = {to, false, false, Origin::World, true, true};
   if (!letter || now_[*letter].range != from || from == to)
     return;
   tested_ |= bit(*letter);
@@ -410,6 +447,7 @@ bool ValuesPass::jump(const StatementNode& statement, std::uint32_t code) {
     now_ = *after;
   else if (!following_)
     forget_letters();
+  forget_sensors();
   return after.has_value() || !following_;
 }
 
@@ -422,7 +460,7 @@ void ValuesPass::begin_block() {
 
 bool ValuesPass::run(Jumps jumps) {
   collect_letters();
-  if (jumps == Jumps::Known && ways_.prepare())
+  if (jumps == Jumps::Known && ways_.prepare(after_sensors_))
     follow();
   check_lines();
   check_letters();

@@ -1,3 +1,4 @@
+#include "base/text/text.h"
 #include "compiler/lint/sums.h"
 #include "compiler/lint/values_pass.h"
 
@@ -484,7 +485,26 @@ void ValuesPass::check_condition(const IfView& condition) {
     check_answer(*condition.second);
 }
 
+/// What the source asks: of a structured program, a line may ask the opposite. Nothing for a `case`.
+std::optional<Orders> ValuesPass::written_orders(const Comparison& comparison) const {
+  const auto sign =
+      trim(program_.text_of({comparison.left.span.end, comparison.right.span.begin}));
+  const auto orders = orders_of(comparison);
+  const char direction = sign == "<>" ? '!' : sign.empty() ? '\0' : sign[0];
+  for (const auto asked : {orders, opposite(orders)})
+    if (direction == sign_of(asked, "!")[0])
+      return asked;
+  return std::nullopt;
+}
+
 void ValuesPass::check_answer(const Comparison& comparison) {
+  const auto& known = known_[comparison.left.value];
+  const Span all{comparison.left.span.begin, comparison.right.span.end};
+  const auto number = number_in(program_, comparison.right);
+  const auto asked = known.bounded ? written_orders(comparison) : std::nullopt;
+  if (number && asked && !where(*asked, known.range, Range::only(*number)))
+    findings_.add(rules::ConstantComparison, all, texts::NeverTrueBelow(program_.text_of(all)),
+                  texts::TestItFirst());
   const auto letter = letter_in(program_, comparison.left);
   if (!letter || !number_in(program_, comparison.right) || orders_of(comparison) != Orders::Equal)
     return;

@@ -23,13 +23,18 @@ Value sensor(std::size_t index) {
 
 } // namespace
 
+Value ValuesPass::known_of_sensor(std::size_t index) const {
+  const auto own = letter_of_sensor_[index];
+  return own != 0 && now_[own].bounded ? now_[own] : sensor(index);
+}
+
 void ValuesPass::compute(std::uint32_t begin, std::uint32_t end) {
   for (auto n = begin; n < end; ++n) {
     const auto& node = program_.nodes[n];
     if (node.kind == NodeKind::Letter)
       known_[n] = now_[node.what];
     else if (node.kind == NodeKind::System)
-      known_[n] = sensor(node.what);
+      known_[n] = known_of_sensor(node.what);
     else
       known_[n] = value_of(program_, n, known_);
     if (!following_)

@@ -70,6 +70,13 @@ private:
   // ---- letters
 
   void collect_letters();
+  /// Gives a letter that the program does not use to each sensor that it compares at least twice,
+  /// for what a test tells of the next one.
+  void find_sensors();
+  Value known_of_sensor(std::size_t index) const;
+  LetterValues at_start() const;
+  /// Forgets what tests have told of sensors: time has passed.
+  void forget_sensors();
 
   void collect_set(const StatementNode& statement);
 
@@ -206,6 +213,7 @@ private:
   /// A letter with the result of a sensor or `rnd`, compared with a value that it never has.
   /// Sensors themselves are checked elsewhere.
   void check_answer(const Comparison& comparison);
+  std::optional<Orders> written_orders(const Comparison& comparison) const;
 
   void check_print(const StatementNode& statement);
 
@@ -260,7 +268,10 @@ private:
 
   // the current state
   LetterValues now_;
-  LetterSet set_ = 0;    ///< letters with an assignment
+  LetterSet set_ = 0; ///< letters with an assignment
+  std::array<std::uint8_t, spec::variables.size()> letter_of_sensor_{}; ///< 0: none
+  std::uint32_t first_sensor_ = 0;  ///< their letters: the first
+  std::uint32_t after_sensors_ = 0; ///< the one after the last
   LetterValues unknown_; ///< the unknown state, except that letters without an assignment are 0
   LetterFlow ways_;
   std::vector<Loop> loops_; ///< loops entered so far

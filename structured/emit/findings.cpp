@@ -37,7 +37,8 @@ bool is_told(const Diagnostic& found) {
       return true;
   const auto& message = found.message; // their other texts are about orbBasic only
   return message.is(robot_texts::NoRollLeadsThere) || message.is(robot_texts::NeverLess) ||
-         message.is(robot_texts::NeverMore) || message.is(robot_texts::EndsAfterOne);
+         message.is(robot_texts::NeverMore) || message.is(robot_texts::EndsAfterOne) ||
+         message.is(robot_texts::NeverTrueBelow);
 }
 
 class MeaningFindings {
