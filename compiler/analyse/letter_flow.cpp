@@ -61,8 +61,13 @@ bool LetterFlow::find_routines() {
       routines_.emplace_back().entry = i;
   if (routines_.size() > most_routines)
     return false;
-  for (auto& routine : routines_)
+  for (auto& routine : routines_) {
     read_routine(routine);
+    routine.calls = static_cast<std::uint32_t>(
+        std::count_if(flow_.jumps.begin(), flow_.jumps.end(), [&](const Flow::Jump& jump) {
+          return jump.call && jump.to == routine.entry;
+        }));
+  }
   const auto written_by_routine = [&](std::uint32_t entry) {
     for (const auto& routine : routines_)
       if (routine.entry == entry)
@@ -99,6 +104,9 @@ void LetterFlow::read_routine(Routine& routine) {
       routine.lines[at] = 1;
       const auto& code = flow_.code[at];
       routine.written |= written_by(at);
+      for (const auto& statement : program_.whole(program_.statements[code.statement]))
+        for (auto n = statement.nodes_begin; n < statement.nodes_end; ++n)
+          routine.reads = routine.reads || program_.nodes[n].kind == NodeKind::Letter;
       for (const auto& jump : flow_.jumps_of(code))
         if (jump.to != none)
           (jump.call ? routine.callees : open).push_back(jump.to);
@@ -148,9 +156,15 @@ void LetterFlow::enter(std::uint32_t code, const LetterValues& letters) {
 bool LetterFlow::call(std::uint32_t entry, std::uint32_t from, LetterValues& letters) {
   const auto routine = std::find_if(routines_.begin(), routines_.end(),
                                     [&](const Routine& one) { return one.entry == entry; });
-  return routine != routines_.end() &&
-         states_.call(static_cast<std::uint32_t>(routine - routines_.begin()), block_of_[from],
-                      letters);
+  if (routine == routines_.end() ||
+      !states_.call(static_cast<std::uint32_t>(routine - routines_.begin()), block_of_[from],
+                    letters))
+    return false;
+  for (std::uint32_t letter = 0; routine->calls > 1 && routine->reads && letter < program_.letters;
+       ++letter)
+    if ((routine->written & bit(letter)) != 0 && !letters[letter].range.constant())
+      letters[letter].exact = letters[letter].dense = false; // perhaps only after the other calls
+  return true;
 }
 
 void LetterFlow::leave(std::uint32_t code, const LetterValues& letters) {

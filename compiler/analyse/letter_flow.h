@@ -65,6 +65,8 @@ private:
     LetterSet written = 0;
     std::vector<std::uint8_t> lines;    ///< lines of its body
     std::vector<std::uint32_t> callees; ///< entries
+    std::uint32_t calls = 0;            ///< places that call it
+    bool reads = false;                 ///< its result may depend on the place
   };
 
   void keep(std::uint32_t code);

@@ -34,6 +34,12 @@ void TrialLine::warn(Span span, Message message, Message help) {
 }
 
 void TrialLine::add(TrialFault fault) {
+  constexpr int most_decisions = 16; // of people and chance; more are no path that anyone takes
+  auto before = fault.decision;
+  for (int n = 0; n < most_decisions && before != none; ++n)
+    before = trial_.decisions[before].before;
+  if (before != none)
+    return;
   if (probing_)
     return;
   const auto said = std::find_if(trial_.faults.begin(), trial_.faults.end(),
@@ -163,10 +169,11 @@ void TrialLine::check_value(const Item& item, std::string_view word,
   const auto& found = value(item);
   const auto& range = found.range;
   if (!range.misses(parameter.least, parameter.greatest)) {
-    if (may_leave(found, parameter.least, parameter.greatest))
-      warn(item.span,
-           texts::ButCanBeOne(allowed_values(word, parameter), program_.text_of(item.span),
-                              range.lo < parameter.least ? range.lo : range.hi));
+    if (!may_leave(found, parameter.least, parameter.greatest))
+      return;
+    warn(item.span, texts::ButCanBeOne(allowed_values(word, parameter), program_.text_of(item.span),
+                                       range.lo < parameter.least ? range.lo : range.hi));
+    blur(item); // further lines only run with the other values
     return;
   }
   Message help;

@@ -63,6 +63,10 @@ protected:
   void check_value(const Item& item, std::string_view word, const spec::Parameter& parameter);
   std::string in_parentheses(const Item& item) const;
   void set(const Item& variable, Value to);
+  /// Forgets which ends of their ranges the variables of an expression take.
+  void blur(const Item& expression) {
+    each_variable(expression, [](Value& one) { one.exact = one.dense = false; });
+  }
   /// Records that other values now depend on the letters of an expression; returns true if there
   /// are any.
   bool bind(const Item& expression);

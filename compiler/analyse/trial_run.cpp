@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <deque>
+#include <map>
 #include <optional>
 #include <unordered_set>
 #include <utility>
@@ -48,6 +49,7 @@ public:
 private:
   static constexpr std::uint32_t most_lines = 4000; ///< on all paths together
   static constexpr std::size_t most_ways = 64;      ///< pending paths
+  static constexpr std::uint32_t most_cycle = 1000; ///< lines of a loop that repeats
   static constexpr std::uint32_t most_probed =
       24; ///< lookahead in lines, for wait loops and paths that meet
   static constexpr std::uint32_t most_joined = 250; ///< rounds in which both paths continue joined
@@ -179,6 +181,8 @@ private:
     auto leaves = now_;
     leaves.loops.pop_back();
     leaves.at = line_ + 1;
+    blur_tied(stays); // the number of rounds tells something of the end
+    blur_tied(leaves);
     decide(stays);
     decide(leaves);
     const auto decider = decider_of(open.end.origin);
@@ -441,8 +445,8 @@ private:
       return assume(condition.first, holds);
     if ((condition.joint->kind == ItemKind::And) != (holds == Holds::Yes)) { // either of the two
       for (const auto* side : {&condition.first, &*condition.second}) {
-        bind(side->left);
-        bind(side->right);
+        blur(side->left);
+        blur(side->right);
       }
       return true;
     }
@@ -471,70 +475,96 @@ private:
     // Excluding an inner value leaves a gap.
     if (orders == Orders::NotEqual && *left_where == left)
       for (const auto* side : {&comparison.left, &comparison.right})
-        if (const auto letter = letter_in(program_, *side))
-          now_.letters[*letter].dense = now_.letters[*letter].range.constant();
+        if (auto* const one = variable_of(bare(program_, *side)))
+          one->dense = one->range.constant();
     return true;
   }
 
-  /// Forgets which ends of their ranges the variables of a tested expression take.
-  void blur(const Item& expression) {
-    each_variable(expression, [](Value& one) { one.exact = one.dense = false; });
+  /// Forgets which ends of their ranges the variables take that depend on each other: a test has
+  /// told something of one of them.
+  static void blur_tied(Moment& way) {
+    for (auto* all : {&way.letters, &way.elements})
+      for (auto& one : *all)
+        if (one.ties != Ties::None && !one.range.constant())
+          one.exact = one.dense = false;
   }
 
   void narrow(const Item& side, const Range& to) {
     auto* const variable = variable_of(bare(program_, side));
-    if (variable == nullptr)
-      return blur(side);
+    if (variable == nullptr) {
+      blur(side);
+      if (known_[side.value].ties != Ties::None)
+        blur_tied(now_);
+      return;
+    }
     auto& value = *variable;
+    const auto known = value;
+    if (value.ties != Ties::None)
+      blur_tied(now_);
+    value = known;
     if (value.range == to)
       return;
-    if (value.ties != Ties::None)
-      for (auto* all : {&now_.letters, &now_.elements})
-        for (auto& other : *all)
-          if (other.ties == Ties::Shared && !other.range.constant())
-            other.exact = other.dense = false;
     value.range = to;
     value.exact = value.dense = value.dense || to.constant();
   }
 
   // ---- loops that never end
 
-  /// Reports a loop on the only path whose every round is the same, at its last test that would
-  /// leave it.
+  /// Reports a loop on the only path that the program never leaves, at its last test that would
+  /// leave it. Loops without such a test are meant to be endless.
   void note_endless() {
     if (now_.decision != none)
       return;
     const auto begin = now_;
-    std::vector<std::uint32_t> lines;
-    probe(begin, [&] {
-      if (!lines.empty() && now_.at == begin.at)
-        return false;
-      lines.push_back(now_.at);
-      return true;
-    });
-    const auto leaves = [&](std::uint32_t line) {
-      return std::find(lines.begin(), lines.end(), line) == lines.end();
-    };
-    for (auto line = lines.rbegin(); line != lines.rend(); ++line) {
-      const auto& code = flow_.code[*line];
-      const auto& statement = program_.statements[code.statement];
-      const auto jumps = flow_.jumps_of(code);
-      if (statement.kind == spec::Statement::If &&
-          (code.ends || (code.falls && leaves(*line + 1)) ||
-           std::any_of(jumps.begin(), jumps.end(),
-                       [&](const auto& way) { return leaves(way.to); })))
-        return add_endless(program_.as<IfView>(statement));
+    auto first = begin.at;
+    auto last = begin.at;
+    std::map<std::uint32_t, Value> tested; // by line: what all rounds have there
+    probing_ = true;
+    for (std::uint32_t n = 0; n < most_cycle && now_.at < flow_.code.size(); ++n) {
+      if (n > 0 && now_.at == begin.at && now_.is_like(begin))
+        break;
+      if (now_.calls.size() > begin.calls.size()) { // in a subroutine
+        go();
+        continue;
+      }
+      first = std::min(first, now_.at);
+      last = std::max(last, now_.at);
+      const auto& statement = program_.statements[flow_.code[now_.at].statement];
+      if (!statement.error && statement.kind == spec::Statement::If)
+        if (const auto letter = letter_in(program_, program_.as<IfView>(statement).first.left)) {
+          const auto& value = now_.letters[*letter];
+          const auto known = tested.try_emplace(now_.at, value).first;
+          known->second = join(known->second, value);
+        }
+      go();
     }
+    probing_ = false;
+    stopped_ = false;
+    const bool closed = now_.at == begin.at && now_.is_like(begin);
+    now_ = begin;
+    for (auto test = tested.rbegin(); closed && test != tested.rend(); ++test)
+      if (leaves(test->first, first, last))
+        return add_endless(test->first, test->second.range);
   }
 
-  void add_endless(const IfView& condition) {
-    const auto letter = letter_in(program_, condition.first.left);
-    if (condition.second || !letter || !now_.letters[*letter].range.constant())
+  /// True if a test may lead to a line outside of a loop, or end the program.
+  bool leaves(std::uint32_t test, std::uint32_t first, std::uint32_t last) const {
+    const auto& code = flow_.code[test];
+    const auto jumps = flow_.jumps_of(code);
+    const auto outside = [&](std::uint32_t line) { return line < first || line > last; };
+    return code.ends || (code.falls && outside(test + 1)) ||
+           std::any_of(jumps.begin(), jumps.end(),
+                       [&](const auto& way) { return !way.call && outside(way.to); });
+  }
+
+  void add_endless(std::uint32_t test, const Range& value) {
+    const auto condition = program_.as<IfView>(program_.statements[flow_.code[test].statement]);
+    if (condition.second)
       return;
     const auto name = program_.text_of(condition.first.left.span);
     add({&rules::EndlessLoop, span_of(condition),
-         texts::StaysTheSame(name, now_.letters[*letter].range.lo), texts::ChangeOnEveryWay(name),
-         none, true, false});
+         value.constant() ? texts::StaysTheSame(name, value.lo) : texts::RoundsRepeat(name),
+         value.constant() ? texts::ChangeOnEveryWay(name) : Message(), none, true, false});
   }
 
   // ---- ways

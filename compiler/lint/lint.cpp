@@ -113,6 +113,7 @@ void lint_ways(const Program& program, const Flow& flow, Findings& findings) {
   const auto settings = read_settings(program, flow);
   lint_waits(program, flow, settings, findings);
   lint_meant(program, flow, settings, findings);
+  lint_updates(program, flow, settings, findings);
   lint_sums(program, flow, findings);
 }
 

@@ -84,6 +84,10 @@ void lint_waits(const Program& program, const Flow& flow, const Settings& settin
 void lint_meant(const Program& program, const Flow& flow, const Settings& settings,
                 Findings& findings);
 
+/// Finds changes of variables that have no effect, or not the one that the next test waits for.
+void lint_updates(const Program& program, const Flow& flow, const Settings& settings,
+                  Findings& findings);
+
 /// Finds computations that lose their result: swaps, sums, products, percentages.
 void lint_sums(const Program& program, const Flow& flow, Findings& findings);
 

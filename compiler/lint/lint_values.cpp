@@ -182,7 +182,7 @@ bool ValuesPass::go(const StatementNode& statement, std::uint32_t code) {
   if (row.form != spec::Form::Loop) // which assigns its letter before it computes its end
     compute(statement.nodes_begin, statement.nodes_end);
   if (row.after == spec::After::Waits)
-    cleared_ = 0;
+    cleared_ = cleared_above_ = 0;
   const bool looks = !following_;
   switch (row.form) {
   case spec::Form::Assignment: set(program_.as<LetView>(statement)); return true;
@@ -452,8 +452,8 @@ bool ValuesPass::jump(const StatementNode& statement, std::uint32_t code) {
 }
 
 void ValuesPass::begin_block() {
-  data_ = {};
   cleared_ = 0;
+  data_ = {};
   counting_ = 0;
   index_begins_.reset();
 }

@@ -8,9 +8,17 @@ void ValuesPass::check_lines() {
   bool falls = false;
   bool runs = true; // as far as tests of known values show
   forget_letters();
+  std::vector<LetterSet> cleared_at(flow_.code.size(), ~LetterSet{0}); // on all jumps from above
+  for (const auto& jump : flow_.jumps)
+    if (jump.to != none && (jump.call || jump.to <= jump.from))
+      cleared_at[jump.to] = 0;
   for (std::uint32_t i = 0; i < flow_.code.size(); ++i) {
     const auto& code = flow_.code[i];
     const bool entered = code.target || !falls;
+    if (code.target)
+      cleared_above_ = (falls ? cleared_ | cleared_above_ : ~LetterSet{0}) & cleared_at[i];
+    else if (entered)
+      cleared_above_ = 0;
     if (entered)
       begin_block();
     runs = runs || entered;
@@ -19,6 +27,7 @@ void ValuesPass::check_lines() {
     else if (entered)
       forget_letters();
     line_ = code.line;
+    code_ = i;
     cleared_on_line_ = 0;
     const auto& statement = program_.statements[code.statement];
     if (runs || statement.error)
@@ -33,6 +42,8 @@ void ValuesPass::check_lines() {
     for (const auto& jump : jumps)
       if (jump.call)
         falls = false; // the subroutine may change everything
+      else if (jump.to != none)
+        cleared_at[jump.to] &= cleared_ | cleared_above_;
     in_order_ = in_order_ && falls;
   }
 }
@@ -485,10 +496,10 @@ void ValuesPass::check_condition(const IfView& condition) {
     check_answer(*condition.second);
 }
 
-/// What the source asks: of a structured program, a line may ask the opposite. Nothing for a `case`.
+/// What the source asks: of a structured program, a line may ask the opposite. Nothing for a
+/// `case`.
 std::optional<Orders> ValuesPass::written_orders(const Comparison& comparison) const {
-  const auto sign =
-      trim(program_.text_of({comparison.left.span.end, comparison.right.span.begin}));
+  const auto sign = trim(program_.text_of({comparison.left.span.end, comparison.right.span.begin}));
   const auto orders = orders_of(comparison);
   const char direction = sign == "<>" ? '!' : sign.empty() ? '\0' : sign[0];
   for (const auto asked : {orders, opposite(orders)})
@@ -502,22 +513,22 @@ void ValuesPass::check_answer(const Comparison& comparison) {
   const Span all{comparison.left.span.begin, comparison.right.span.end};
   const auto number = number_in(program_, comparison.right);
   const auto asked = known.bounded ? written_orders(comparison) : std::nullopt;
-  if (number && asked && !where(*asked, known.range, Range::only(*number)))
+  if (number && asked && !where(*asked, known.range, Range::only(*number))) {
     findings_.add(rules::ConstantComparison, all, texts::NeverTrueBelow(program_.text_of(all)),
                   texts::TestItFirst());
+    return;
+  }
   const auto letter = letter_in(program_, comparison.left);
-  if (!letter || !number_in(program_, comparison.right) || orders_of(comparison) != Orders::Equal)
+  if (!letter || !number || orders_of(comparison) != Orders::Equal)
     return;
   if (!now_[*letter].dense)
     return;
   const auto& range = now_[*letter].range;
-  const auto& value = range_of(comparison.right);
-  if (range.constant() || range.has(value.lo))
+  if (range.constant() || range.has(*number))
     return;
   const auto name = spec::letter_name(*letter);
-  findings_.add(rules::ConstantComparison,
-                Span{comparison.left.span.begin, comparison.right.span.end},
-                texts::AsItIsHere(texts::NeverTrue(fmt::format("{} = {}", name, value.lo)), name,
+  findings_.add(rules::ConstantComparison, all,
+                texts::AsItIsHere(texts::NeverTrue(fmt::format("{} = {}", name, *number)), name,
                                   range.lo, range.hi),
                 texts::CompareWithFromTo(range.lo, range.hi));
 }

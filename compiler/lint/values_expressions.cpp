@@ -80,7 +80,11 @@ void ValuesPass::note_uses(const StatementNode& statement) {
 
 void ValuesPass::note_clearing(const Node& node, const spec::VariableInfo& row) {
   const auto slot = clearing_slots[node.what];
-  if (((cleared_on_line_ | cleared_) & bit(slot)) != 0)
+  // A copy after a test may be meant to reset it.
+  const auto above = program_.statements[flow_.code[code_].statement].kind == spec::Statement::If
+                         ? cleared_above_
+                         : LetterSet{0};
+  if (((cleared_on_line_ | cleared_ | above) & bit(slot)) != 0)
     findings_.add(rules::ClearedByReading, node.span, texts::IsReadAgain(row.word),
                   texts::CopyIt());
   cleared_on_line_ |= bit(slot);

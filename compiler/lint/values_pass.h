@@ -285,8 +285,10 @@ private:
 
   DataSet data_;
   LetterSet cleared_ = 0;         ///< variables that are 0 because they were read
+  LetterSet cleared_above_ = 0;   ///< the same, on all paths to this line
   LetterSet cleared_on_line_ = 0; ///< the same, on this line
   LetterSet counting_ = 0;        ///< letters of loops that certainly reach their ends
+  std::uint32_t code_ = 0;        ///< the current line of code
   std::uint32_t line_ = 0;        ///< the current line
   bool conditional_ = false;      ///< in a branch
 

@@ -27,6 +27,14 @@ public:
   void run() {
     check_parameters();
     check_indented();
+    for (const auto i : program_.order)
+      if (at(i).kind == Kind::Assign)
+        check_limit(i);
+
+    for (const auto& routine : names_.routines)
+      for (const auto local : routine.locals)
+        if (names_.symbols[local].kind == SymbolKind::Local)
+          check_local(names_.symbols[local].statement, local);
   }
 
 private:
@@ -77,6 +85,104 @@ private:
           if (program_.nodes[node].kind == NodeKind::Name && names_.of_node[node] == symbol)
             return true;
       }
+    return false;
+  }
+
+  // ---- sums
+
+  /// The variable that a statement changes by a number, as in `a += 2`.
+  std::uint32_t symbol_set(std::uint32_t i) const {
+    const auto place = item(at(i), 0).value;
+    return program_.nodes[place].kind == NodeKind::Name ? names_.of_node[place] : none;
+  }
+
+  /// Reports `pace = max(pace + 15, 120)` in a loop: the sum is soon the greater one.
+  void check_limit(std::uint32_t i) {
+    if (at(i).depth == 0 || at(i).operation != Statement::none_operation)
+      return;
+    const auto root = item(at(i), 1).value;
+    const auto& node = program_.nodes[root];
+    if (node.kind != NodeKind::Least && node.kind != NodeKind::Greatest)
+      return;
+    const auto second = root - 1;
+    const auto first = program_.nodes[second].first - 1;
+    const auto wanted =
+        node.kind == NodeKind::Greatest ? spec::Operator::Add : spec::Operator::Subtract;
+    const auto symbol = symbol_set(i);
+    for (const auto& [sum, limit] : {std::pair(first, second), std::pair(second, first)}) {
+      const auto& one = program_.nodes[sum];
+      const auto by =
+          one.kind == NodeKind::Binary ? evaluate(program_, names_, sum - 1) : std::nullopt;
+      const auto most = evaluate(program_, names_, limit);
+      if (!by || !most || by->value <= 0 || static_cast<spec::Operator>(one.what) != wanted ||
+          one.first + 2 != sum || program_.nodes[one.first].kind != NodeKind::Name ||
+          names_.of_node[one.first] != symbol || symbol == none)
+        continue;
+      if (is_kept_otherwise(symbol, i))
+        return;
+      const auto span = item(at(i), 1).span;
+      const bool up = wanted == spec::Operator::Add;
+      const auto name = program_.name(names_.symbols[symbol].name);
+      auto line = std::string(program_.text_of(at(i).span));
+      const std::string_view word = up ? "min" : "max";
+      line.replace(span.begin - at(i).span.begin, word.size(), word);
+      auto& d =
+          report(compiler::rules::LostUpdate, span,
+                 (up ? texts::GrowsPast : texts::FallsPast)(name, most->value), texts::Write(line));
+      d.fix = Fix{d.help, {{{span.begin, span.begin + 3}, std::string(word)}}, Safety::Unsafe};
+      return;
+    }
+  }
+
+  /// True if another line tests a variable, or sets it but at the start.
+  bool is_kept_otherwise(std::uint32_t symbol, std::uint32_t but) const {
+    for (const auto i : program_.order) {
+      const auto& one = at(i);
+      if (i == but ||
+          (one.kind == Kind::Assign && symbol_set(i) == symbol && one.depth == 0 && i < but))
+        continue;
+      if (one.kind != Kind::Robot && one.kind != Kind::Print && one.kind != Kind::Call &&
+          std::any_of(program_.items.begin() + one.items_begin,
+                      program_.items.begin() + one.items_end,
+                      [&](const Item& part) { return part.has_nodes() && mentions(part, symbol); }))
+        return true;
+    }
+    return false;
+  }
+
+  /// Reports a sum in a local variable that nothing else sets: it starts at 0 in each call.
+  void check_local(std::uint32_t local, std::uint32_t symbol) {
+    const auto routine = names_.routine_of[local];
+    std::uint32_t only = none;
+    for (auto i = local + 1; i < at(names_.routines[routine].statement).next; ++i) {
+      const auto& one = at(i);
+      const bool reads = std::any_of(
+          program_.items.begin() + one.items_begin, program_.items.begin() + one.items_end,
+          [&](const Item& part) { return part.has_nodes() && mentions(part, symbol); });
+      if (one.kind == Kind::Label)
+        return;
+      if (!reads)
+        continue;
+      if (only == none &&
+          (one.kind != Kind::Assign || symbol_set(i) != symbol ||
+           one.operation == Statement::none_operation || one.depth != at(local).depth))
+        return; // it is set or read otherwise first
+      if (only == none)
+        only = i;
+      else if (one.kind != Kind::Robot && (one.kind != Kind::Assign || symbol_set(i) == symbol) &&
+               one.kind != Kind::Return && one.kind != Kind::If && one.kind != Kind::Call)
+        return;
+    }
+    if (only != none)
+      report(compiler::rules::LostUpdate, at(only).span,
+             texts::StartsInEachCall(program_.name(names_.symbols[symbol].name)),
+             texts::KeepsItsValue(program_.name(names_.symbols[symbol].name)));
+  }
+
+  bool mentions(const Item& part, std::uint32_t symbol) const {
+    for (auto n = program_.nodes[part.value].first; n <= part.value; ++n)
+      if (program_.nodes[n].kind == NodeKind::Name && names_.of_node[n] == symbol)
+        return true;
     return false;
   }
 

@@ -24,7 +24,9 @@ TEST(Range, OfConstantsIsConstant) {
   EXPECT_EQ(of(spec::Operator::ShiftRight, -3, 1), Range::only(-2));
   EXPECT_EQ(of(spec::Operator::And, 45, 85), Range::only(5));
   EXPECT_EQ(of(spec::Operator::Or, 45, 85), Range::only(125));
-  EXPECT_EQ(of(spec::Operator::Add, greatest, 1), Range()) << "what wraps is unknown";
+  EXPECT_EQ(of(spec::Operator::Add, greatest, 1), Range::only(least));
+  EXPECT_EQ(apply(spec::Operator::Add, Range{0, greatest}, Range::only(1)), Range())
+      << "of several values, what wraps is unknown";
 }
 
 TEST(Range, OfAFunction) {
