@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <deque>
-#include <map>
 #include <optional>
 #include <unordered_set>
 #include <utility>
@@ -510,6 +509,12 @@ private:
 
   // ---- loops that never end
 
+  /// A test in a loop, and all values that its letter has there.
+  struct Tested {
+    std::uint32_t line = 0;
+    Range range;
+  };
+
   /// Reports a loop on the only path that the program never leaves, at its last test that would
   /// leave it. Loops without such a test are meant to be endless.
   void note_endless() {
@@ -518,7 +523,7 @@ private:
     const auto begin = now_;
     auto first = begin.at;
     auto last = begin.at;
-    std::map<std::uint32_t, Value> tested; // by line: what all rounds have there
+    std::vector<Tested> tests;
     probing_ = true;
     for (std::uint32_t n = 0; n < most_cycle && now_.at < flow_.code.size(); ++n) {
       if (n > 0 && now_.at == begin.at && now_.is_like(begin))
@@ -532,9 +537,13 @@ private:
       const auto& statement = program_.statements[flow_.code[now_.at].statement];
       if (!statement.error && statement.kind == spec::Statement::If)
         if (const auto letter = letter_in(program_, program_.as<IfView>(statement).first.left)) {
-          const auto& value = now_.letters[*letter];
-          const auto known = tested.try_emplace(now_.at, value).first;
-          known->second = join(known->second, value);
+          const auto& range = now_.letters[*letter].range;
+          const auto known = std::find_if(tests.begin(), tests.end(),
+                                          [&](const Tested& one) { return one.line == now_.at; });
+          if (known == tests.end())
+            tests.push_back({now_.at, range});
+          else
+            known->range = join(known->range, range);
         }
       go();
     }
@@ -542,9 +551,13 @@ private:
     stopped_ = false;
     const bool closed = now_.at == begin.at && now_.is_like(begin);
     now_ = begin;
-    for (auto test = tested.rbegin(); closed && test != tested.rend(); ++test)
-      if (leaves(test->first, first, last))
-        return add_endless(test->first, test->second.range);
+    const Tested* last_exit = nullptr;
+    for (const auto& test : tests)
+      if (closed && leaves(test.line, first, last) &&
+          (last_exit == nullptr || test.line > last_exit->line))
+        last_exit = &test;
+    if (last_exit != nullptr)
+      add_endless(*last_exit);
   }
 
   /// True if a test may lead to a line outside of a loop, or end the program.
@@ -557,8 +570,10 @@ private:
                        [&](const auto& way) { return !way.call && outside(way.to); });
   }
 
-  void add_endless(std::uint32_t test, const Range& value) {
-    const auto condition = program_.as<IfView>(program_.statements[flow_.code[test].statement]);
+  void add_endless(const Tested& test) {
+    const auto& value = test.range;
+    const auto condition =
+        program_.as<IfView>(program_.statements[flow_.code[test.line].statement]);
     if (condition.second)
       return;
     const auto name = program_.text_of(condition.first.left.span);

@@ -38,7 +38,6 @@ public:
     for (const auto& place : flow_.all(Statement::For))
       if (flow_.is_line(place)) {
         check_turns(place.code);
-        check_same_heading(place.code);
         if (const auto next = next_below(place.code); next > place.code + 1)
           check_data(place.code + 1, next - 1);
       }
@@ -159,65 +158,6 @@ private:
         findings_.add(rules::ExtraTurn, counted, texts::TurnsOnceMore(*last + 1, *last, *turn),
                       texts::Write("for " + meant));
     d.fix = single_fix(d.help, counted, meant, Safety::Unsafe);
-  }
-
-  /// `for I = 1 to 4` around one roll with heading 90: four sides of a straight line. Only where
-  /// the rounds are the same and do nothing else but light and wait.
-  void check_same_heading(std::uint32_t begin) {
-    const auto loop = program_.as<ForView>(statement_of(begin));
-    const auto first = number(loop.start);
-    const auto last = number(loop.end);
-    if (!first || !last || loop.step != nullptr)
-      return;
-    const auto rounds = std::int64_t{*last} - *first + 1;
-    const Item* turn = nullptr;
-    int rolls = 0;
-    for (auto i = begin + 1, end = next_below(begin); i < end; ++i) {
-      const auto& statement = statement_of(i);
-      const auto items = program_.items_of(statement);
-      if (!is_single(i) || (!does_the_same(statement) && statement.kind != Statement::Gosub))
-        return;
-      if (statement.kind == Statement::Let) // of a sub that the loop calls
-        turn = turn != nullptr || !is_heading(items[0]) ? turn : &items[1];
-      if (statement.kind != Statement::Goroll)
-        continue;
-      rolls += number(items[1]) == 0 ? 0 : 1;
-      if (number(items[0]) && number(items[1]) != 0)
-        turn = &items[0];
-      else if (!number(items[0]) && !is_set_once(items[0]))
-        return;
-    }
-    const auto degrees = turn == nullptr ? std::nullopt : number(*turn);
-    if (rolls <= 1 && rounds > 2 && degrees && *degrees > 0 && rounds * *degrees == full_turn)
-      findings_.add(rules::SameHeading, turn->span, texts::RollsTheSameWay(rounds, *degrees),
-                    texts::AddTheTurn(*degrees));
-  }
-
-  /// True if a statement rolls, lights, waits or sets a heading, with numbers.
-  bool does_the_same(const StatementNode& statement) const {
-    if (statement.kind != Statement::Goroll && statement.kind != Statement::Delay &&
-        statement.kind != Statement::Rgb && statement.kind != Statement::Ledc &&
-        statement.kind != Statement::Let)
-      return false;
-    const auto items = program_.items_of(statement);
-    return std::all_of(items.begin() + (statement.kind == Statement::Let ? 1 : 0), items.end(),
-                       [&](const Item& item) { return number(item) || is_set_once(item); });
-  }
-
-  bool is_set_once(const Item& heading) const {
-    const auto letter = letter_in(program_, heading);
-    return letter && settings_[*letter].size() == 1 && settings_[*letter][0].value != nullptr;
-  }
-
-  /// True if a letter is set once, and is the heading of a roll.
-  bool is_heading(const Item& variable) const {
-    const auto rolls = flow_.all(Statement::Goroll);
-    return variable.kind == ItemKind::Letter && settings_[variable.value].size() == 1 &&
-           std::any_of(rolls.begin(), rolls.end(), [&](const auto& roll) {
-             return letter_in(program_,
-                              program_.items_of(program_.statements[roll.statement])[0]) ==
-                    variable.value;
-           });
   }
 
   /// The first `next` below a line; 0 if there is none.

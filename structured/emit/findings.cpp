@@ -32,8 +32,7 @@ bool is_told(const Diagnostic& found) {
                            &robot::AlwaysOne,        &robot::RobotLacks,      &robot::NeverRolls,
                            &robot::WakesElsewhere,   &robot::LostExchange,    &robot::DividesFirst,
                            &robot::StaysZero,        &robot::SumRestarts,     &robot::EndlessLoop,
-                           &robot::EarlySensor,      &robot::ExtraTurn,       &robot::LostUpdate,
-                           &robot::SameHeading})
+                           &robot::EarlySensor,      &robot::ExtraTurn,       &robot::LostUpdate})
     if (found.rule == told)
       return true;
   const auto& message = found.message; // their other texts are about orbBasic only
