@@ -885,7 +885,8 @@ class Playground(unittest.TestCase):
         opened = max(size for name, size in later.items() if name.startswith("examples/lessons/"))
         opened += sum(size for name, size in later.items() if name.startswith("verdicts-"))
         print(f"a first visit loads {sum(at_once.values())} bytes and up to {opened} for a lesson, blocks {blocks} more, all on demand {sum(later.values())}")
-        self.assertLessEqual(sum(at_once.values()) + opened, 600_000)
+        self.assertLessEqual(sum(at_once.values()), 600_000)
+        self.assertLessEqual(opened, 6_000)
         self.assertGreater(blocks, 100_000)
         self.assertLessEqual(blocks, 200_000)
 
