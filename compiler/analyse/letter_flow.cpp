@@ -148,8 +148,8 @@ bool LetterFlow::load(std::uint32_t code, LetterValues& letters) const {
 }
 
 void LetterFlow::enter(std::uint32_t code, const LetterValues& letters) {
-  if (code < block_of_.size() &&
-      is_kept(code)) // otherwise no line, or only the line above leads there
+  // Otherwise there is no line, or only the line above leads there.
+  if (code < block_of_.size() && is_kept(code))
     states_.enter(block_of_[code], letters);
 }
 

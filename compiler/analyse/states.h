@@ -160,10 +160,9 @@ private:
   }
 
   std::vector<Block> blocks_;
-  std::vector<std::uint32_t> tracked_; ///< variables, block after block
-  std::vector<std::uint32_t> begins_{
-      0};                    ///< of each block: the start of its variables; then the end
-  std::vector<Known> known_; ///< of each tracked variable, at the start of its block
+  std::vector<std::uint32_t> tracked_;   ///< variables, block after block
+  std::vector<std::uint32_t> begins_{0}; ///< where those of each block begin, and the end
+  std::vector<Known> known_;             ///< of each tracked variable, at the start of its block
   std::vector<Routine> routines_;
   std::vector<std::int32_t> landmarks_;
   std::uint32_t first_waiting_ = 0;

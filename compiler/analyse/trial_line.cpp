@@ -34,13 +34,13 @@ void TrialLine::warn(Span span, Message message, Message help) {
 }
 
 void TrialLine::add(TrialFault fault) {
+  if (probing_)
+    return;
   constexpr int most_decisions = 16; // of people and chance; more are no path that anyone takes
   auto before = fault.decision;
   for (int n = 0; n < most_decisions && before != none; ++n)
     before = trial_.decisions[before].before;
   if (before != none)
-    return;
-  if (probing_)
     return;
   const auto said = std::find_if(trial_.faults.begin(), trial_.faults.end(),
                                  [&](const TrialFault& one) { return one.span == fault.span; });

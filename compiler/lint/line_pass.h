@@ -63,6 +63,42 @@ protected:
     return std::nullopt;
   }
 
+  /// A letter plus a number; no letter for any other expression.
+  struct Shifted {
+    std::uint32_t letter = none;
+    std::int64_t by = 0;
+  };
+  Shifted shifted(const Item& item) const {
+    if (const auto letter = letter_in(program_, item))
+      return {*letter, 0};
+    const auto nodes = nodes_of(program_, item);
+    if (nodes.size() != 3 || nodes[0].kind != NodeKind::Letter ||
+        nodes[1].kind != NodeKind::Number || nodes[1].overflow || nodes[2].kind != NodeKind::Binary)
+      return {};
+    const auto op = static_cast<spec::Operator>(nodes[2].what);
+    return op == spec::Operator::Add        ? Shifted{nodes[0].what, nodes[1].value}
+           : op == spec::Operator::Subtract ? Shifted{nodes[0].what, -std::int64_t{nodes[1].value}}
+                                            : Shifted{};
+  }
+  /// The number that a statement adds to a letter: `A = A + 1`; no letter for any other statement.
+  Shifted step_in(const StatementNode& statement) const {
+    if (statement.error || statement.kind != spec::Statement::Let)
+      return {};
+    const auto let = program_.as<LetView>(statement);
+    const auto step = shifted(let.expression);
+    const bool adds = nodes_of(program_, let.expression).size() == 3 &&
+                      let.variable.kind == ItemKind::Letter && let.variable.value == step.letter;
+    return adds ? step : Shifted{};
+  }
+
+  /// True if an expression of a statement contains a letter.
+  bool reads(const StatementNode& statement, std::uint32_t letter) const {
+    for (auto n = statement.nodes_begin; n < statement.nodes_end; ++n)
+      if (program_.nodes[n].kind == NodeKind::Letter && program_.nodes[n].what == letter)
+        return true;
+    return false;
+  }
+
   static Span span_of(const Comparison& comparison) {
     return {comparison.left.span.begin, comparison.right.span.end};
   }

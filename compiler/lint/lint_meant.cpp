@@ -361,24 +361,6 @@ private:
     }
   }
 
-  /// A letter plus a number.
-  struct Shifted {
-    std::uint32_t letter = none;
-    std::int64_t by = 0;
-  };
-  Shifted shifted(const Item& item) const {
-    if (const auto letter = letter_in(program_, item))
-      return {*letter, 0};
-    const auto nodes = nodes_of(program_, item);
-    if (nodes.size() != 3 || nodes[0].kind != NodeKind::Letter ||
-        nodes[1].kind != NodeKind::Number || nodes[1].overflow || nodes[2].kind != NodeKind::Binary)
-      return {};
-    const auto op = static_cast<spec::Operator>(nodes[2].what);
-    return op == spec::Operator::Add        ? Shifted{nodes[0].what, nodes[1].value}
-           : op == spec::Operator::Subtract ? Shifted{nodes[0].what, -std::int64_t{nodes[1].value}}
-                                            : Shifted{};
-  }
-
   /// The sensor, or the sensor whose value the letter always has.
   std::optional<Variable> sensor_behind(const Item& item) const {
     if (const auto sensor = sensor_in(program_, item))

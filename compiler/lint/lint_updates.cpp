@@ -2,8 +2,6 @@
 #include "compiler/text/rules.h"
 
 #include <algorithm>
-#include <array>
-#include <cstdlib>
 #include <fmt/format.h>
 
 namespace orb::compiler {
@@ -33,27 +31,6 @@ public:
   }
 
 private:
-  /// A letter and the number that is added to it: `A = A + 2`.
-  struct Step {
-    std::uint32_t letter = none;
-    std::int64_t by = 0;
-  };
-  Step step_of(const StatementNode& statement) const {
-    if (statement.error || statement.kind != Statement::Let)
-      return {};
-    const auto let = program_.as<LetView>(statement);
-    const auto nodes = nodes_of(program_, let.expression);
-    if (let.variable.kind != ItemKind::Letter || nodes.size() != 3 ||
-        nodes[0].kind != NodeKind::Letter || nodes[0].what != let.variable.value ||
-        nodes[1].kind != NodeKind::Number || nodes[2].kind != NodeKind::Binary)
-      return {};
-    const auto op = static_cast<spec::Operator>(nodes[2].what);
-    const std::int64_t by = nodes[1].value;
-    return op == spec::Operator::Add        ? Step{let.variable.value, by}
-           : op == spec::Operator::Subtract ? Step{let.variable.value, -by}
-                                            : Step{};
-  }
-
   /// The number that a statement assigns to a letter.
   std::optional<std::int32_t> number_set(const StatementNode& statement,
                                          std::uint32_t letter) const {
@@ -65,7 +42,7 @@ private:
                : std::nullopt;
   }
 
-  std::string name_of(const Item& item) const { return std::string(program_.text_of(item.span)); }
+  std::string_view name_of(const Item& item) const { return program_.text_of(item.span); }
 
   // ---- two tests where the second undoes the first
 
@@ -137,7 +114,7 @@ private:
         continue;
       for (auto i = code + 1; i < last; ++i)
         for (const auto& statement : whole(i))
-          if (const auto step = step_of(statement);
+          if (const auto step = step_in(statement);
               step.letter == node.what && step.by != 0 && !is_read(node.what, code + 1, i)) {
             auto& d = findings_.add(rules::LostUpdate, statement.span,
                                     texts::EndIsComputed(name_of(program_.items_of(statement)[0])),
@@ -165,15 +142,14 @@ private:
   bool is_read(std::uint32_t letter, std::uint32_t begin, std::uint32_t but) const {
     for (auto i = begin; i < size_; ++i)
       for (const auto& statement : whole(i))
-        for (auto n = statement.nodes_begin; i != but && n < statement.nodes_end; ++n)
-          if (program_.nodes[n].kind == NodeKind::Letter && program_.nodes[n].what == letter)
-            return true;
+        if (i != but && reads(statement, letter))
+          return true;
     return false;
   }
 
   /// A sum that grows in a loop, although a subroutine that the loop calls begins it anew.
   void check_restart(std::uint32_t code) {
-    const auto step = step_of(statement_of(code));
+    const auto step = step_in(statement_of(code));
     if (step.letter == none)
       return;
     for (const auto& call : flow_.jumps) {
@@ -214,9 +190,8 @@ private:
       const auto& statement = statement_of(i);
       if (number_set(statement, letter))
         return i;
-      for (auto n = statement.nodes_begin; n < statement.nodes_end; ++n)
-        if (program_.nodes[n].kind == NodeKind::Letter && program_.nodes[n].what == letter)
-          return none;
+      if (reads(statement, letter))
+        return none;
       for (const auto& item : program_.items_of(statement))
         if (item.kind == ItemKind::Letter && item.value == letter)
           return none;
@@ -236,13 +211,13 @@ private:
         settings_[*letter].size() != 2)
       return;
     std::optional<std::int32_t> begin;
-    Step step;
+    Shifted step;
     for (const auto& setting : settings_[*letter]) {
       const auto& set = statement_of(setting.code);
       if (const auto number = number_set(set, *letter); number && setting.code < jump.to)
         begin = number;
       else if (jump.to <= setting.code && setting.code < jump.from && is_single(setting.code))
-        step = step_of(set);
+        step = step_in(set);
     }
     const auto way = std::int64_t{*end} - begin.value_or(*end);
     if (step.by == 0 || way == 0 || way / step.by < 1 || way % step.by == 0 ||

@@ -199,9 +199,9 @@ private:
     if (let.variable.kind != ItemKind::Letter || let.variable.value != *letter || !first ||
         set <= jump.to || set >= code || !is_single(set))
       return;
-    const auto step = step_in(statement_of(set), *letter);
+    const auto step = step_in(statement_of(set));
     const Bound test{orders_of(condition.first), *limit};
-    if (!step || !test.holds(*first) || !test.holds(*first + *step))
+    if (step.letter != *letter || !test.holds(*first) || !test.holds(*first + step.by))
       return;
     const auto number_of = [&](std::uint32_t line) {
       return program_.lines[flow_.code[line].line].number;
@@ -214,20 +214,6 @@ private:
         texts::Write(fmt::format("{}{}", program_.text_of(line), number_of(jump.to + 1))));
     d.fix = single_fix(d.help, target, std::to_string(number_of(jump.to + 1)), Safety::Unsafe);
     add_note(d, begin.span, texts::SetHere());
-  }
-
-  /// The amount that a line adds to a letter: `A = A + 1`.
-  std::optional<std::int32_t> step_in(const StatementNode& statement, std::uint8_t letter) const {
-    if (statement.kind != Statement::Let)
-      return std::nullopt;
-    const auto nodes = nodes_of(program_, program_.as<LetView>(statement).expression);
-    if (nodes.size() != 3 || nodes[0].kind != NodeKind::Letter || nodes[0].what != letter ||
-        nodes[1].kind != NodeKind::Number || nodes[2].kind != NodeKind::Binary)
-      return std::nullopt;
-    const auto sign = static_cast<spec::Operator>(nodes[2].what);
-    return sign == spec::Operator::Add        ? std::optional(nodes[1].value)
-           : sign == spec::Operator::Subtract ? std::optional(-nodes[1].value)
-                                              : std::nullopt;
   }
 
   /// A line that jumps to itself while a condition holds that ends at once.

@@ -280,7 +280,7 @@ private:
   LetterSet tested_ = 0;    ///< letters narrowed by the condition of this line
   bool following_ = false;
   bool followed_ = false;
-  bool at_risk_ = false;                     ///< some value may stop the program
+  bool at_risk_ = false;                     ///< a trial may find more
   std::optional<std::int32_t> index_begins_; ///< start of the enclosing loop if it counts in `Y`
 
   DataSet data_;

@@ -30,7 +30,6 @@ public:
     for (const auto i : program_.order)
       if (at(i).kind == Kind::Assign)
         check_limit(i);
-
     for (const auto& routine : names_.routines)
       for (const auto local : routine.locals)
         if (names_.symbols[local].kind == SymbolKind::Local)
@@ -79,18 +78,15 @@ private:
         const bool only_set = part == 0 && at(n).kind == Kind::Assign &&
                               (n == statement || at(n).operation == Statement::none_operation) &&
                               program_.nodes[one.value].kind == NodeKind::Name;
-        if (!one.has_nodes() || only_set)
-          continue;
-        for (auto node = program_.nodes[one.value].first; node <= one.value; ++node)
-          if (program_.nodes[node].kind == NodeKind::Name && names_.of_node[node] == symbol)
-            return true;
+        if (!only_set && mentions(one, symbol))
+          return true;
       }
     return false;
   }
 
   // ---- sums
 
-  /// The variable that a statement changes by a number, as in `a += 2`.
+  /// The variable that an assignment sets; none for an element.
   std::uint32_t symbol_set(std::uint32_t i) const {
     const auto place = item(at(i), 0).value;
     return program_.nodes[place].kind == NodeKind::Name ? names_.of_node[place] : none;
@@ -142,9 +138,7 @@ private:
           (one.kind == Kind::Assign && symbol_set(i) == symbol && one.depth == 0 && i < but))
         continue;
       if (one.kind != Kind::Robot && one.kind != Kind::Print && one.kind != Kind::Call &&
-          std::any_of(program_.items.begin() + one.items_begin,
-                      program_.items.begin() + one.items_end,
-                      [&](const Item& part) { return part.has_nodes() && mentions(part, symbol); }))
+          mentions(one, symbol))
         return true;
     }
     return false;
@@ -156,12 +150,9 @@ private:
     std::uint32_t only = none;
     for (auto i = local + 1; i < at(names_.routines[routine].statement).next; ++i) {
       const auto& one = at(i);
-      const bool reads = std::any_of(
-          program_.items.begin() + one.items_begin, program_.items.begin() + one.items_end,
-          [&](const Item& part) { return part.has_nodes() && mentions(part, symbol); });
       if (one.kind == Kind::Label)
         return;
-      if (!reads)
+      if (!mentions(one, symbol))
         continue;
       if (only == none &&
           (one.kind != Kind::Assign || symbol_set(i) != symbol ||
@@ -179,8 +170,14 @@ private:
              texts::KeepsItsValue(program_.name(names_.symbols[symbol].name)));
   }
 
+  bool mentions(const Statement& statement, std::uint32_t symbol) const {
+    const auto parts = program_.items_of(statement);
+    return std::any_of(parts.begin(), parts.end(),
+                       [&](const Item& part) { return mentions(part, symbol); });
+  }
   bool mentions(const Item& part, std::uint32_t symbol) const {
-    for (auto n = program_.nodes[part.value].first; n <= part.value; ++n)
+    for (auto n = part.has_nodes() ? program_.nodes[part.value].first : part.value + 1;
+         n <= part.value; ++n)
       if (program_.nodes[n].kind == NodeKind::Name && names_.of_node[n] == symbol)
         return true;
     return false;
