@@ -2,6 +2,7 @@
 
 #include "assembler/text/rules.h"
 #include "assembler/text/texts.h"
+#include "base/fixes.h"
 #include "base/meant.h"
 
 #include <algorithm>
@@ -177,7 +178,7 @@ void Names::offer_id(Diagnostic& d, Span span, std::uint8_t first) const {
   if (is_taken(free))
     return;
   d.help = texts::Write(fmt::format("id={}", free));
-  d.fix = Fix{d.help, {{span, std::to_string(free)}}, Safety::Unsafe};
+  d.fix = single_fix(d.help, span, std::to_string(free), Safety::Unsafe);
 }
 
 void Names::read_flag(AssembledMacro& defined, const Value& value) {

@@ -2,6 +2,7 @@
 
 #include "assembler/text/rules.h"
 #include "assembler/text/texts.h"
+#include "base/fixes.h"
 #include "base/text/suggest.h"
 
 #include <algorithm>
@@ -139,7 +140,7 @@ void Operands::unknown_operand(const spec::MacroCommandInfo& info, Span span) {
       : info.operand_count == 0 ? texts::HasNone()
                                 : texts::OperandsAre(operand_list(info)));
   if (meant)
-    diagnostic.fix = Fix{texts::Write(*meant), {{span, *meant}}, Safety::Unsafe};
+    diagnostic.fix = single_fix(texts::Write(*meant), span, *meant, Safety::Unsafe);
 }
 
 const spec::MacroCommandInfo* Operands::roll_for(const Value& delay) const {
@@ -226,7 +227,7 @@ std::optional<std::int32_t> Operands::unknown_name(Span span, const MacroOperand
   auto& diagnostic =
       findings_.add(rules::UnknownName, span, texts::NotValid(word, operand.name, command), help);
   if (meant)
-    diagnostic.fix = Fix{texts::Write(*meant), {{span, *meant}}, Safety::Unsafe};
+    diagnostic.fix = single_fix(texts::Write(*meant), span, *meant, Safety::Unsafe);
   return std::nullopt;
 }
 
@@ -293,7 +294,7 @@ void Operands::out_of_range(std::int64_t value, const Value& number, Span span,
   const auto near = operand.unit == MacroUnit::Degrees && !operand.is_signed
                         ? same_way(value, operand.maximum + 1)
                         : std::clamp<std::int64_t>(value, operand.minimum, operand.maximum);
-  d.fix = Fix{texts::Write(near), {{span, std::to_string(near)}}, Safety::Unsafe};
+  d.fix = single_fix(texts::Write(near), span, std::to_string(near), Safety::Unsafe);
 }
 
 std::string Operands::read_text(const Value& value) {
@@ -301,7 +302,7 @@ std::string Operands::read_text(const Value& value) {
     const auto quoted = fmt::format("\"{}\"", program_.text_of(value.span));
     auto& d = findings_.add(rules::OutOfRange, value.span, texts::CommentNeedsText(),
                             texts::Write("comment " + quoted));
-    d.fix = Fix{d.help, {{value.span, quoted}}, Safety::Unsafe};
+    d.fix = single_fix(d.help, value.span, quoted, Safety::Unsafe);
     return {};
   }
   const auto quoted = program_.text_of(value.span);

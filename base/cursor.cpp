@@ -1,6 +1,7 @@
 #include "base/cursor.h"
 
 #include "base/duration.h"
+#include "base/fixes.h"
 #include "base/meant.h"
 #include "base/text/text.h"
 #include "base/text/utf8.h"
@@ -437,7 +438,7 @@ std::string Cursor::slashed() {
   const bool is_first = !failed_ && diagnostics_ != nullptr;
   fail_at({open, end}, *syntax_, texts::UnterminatedPattern(), texts::AddAfter('/'));
   if (is_first)
-    diagnostics_->back().fix = Fix{texts::AddAfter('/'), {{{end, end}, "/"}}, Safety::Unsafe};
+    diagnostics_->back().fix = single_fix(texts::AddAfter('/'), {end, end}, "/", Safety::Unsafe);
   return pattern;
 }
 

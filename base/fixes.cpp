@@ -6,6 +6,7 @@
 #include <iterator>
 #include <map>
 #include <set>
+#include <utility>
 
 namespace orb {
 namespace {
@@ -108,6 +109,10 @@ std::string key_of(std::string_view text, const Diagnostic& diagnostic) {
 }
 
 } // namespace
+
+Fix single_fix(Message title, Span span, std::string text, Safety safety) {
+  return Fix{std::move(title), {Edit{span, std::move(text)}}, safety};
+}
 
 Fixed apply_fixes(std::string_view text, const std::vector<Diagnostic>& diagnostics) {
   Edits edits;

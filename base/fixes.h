@@ -10,6 +10,9 @@
 
 namespace orb {
 
+/// A fix of one edit.
+Fix single_fix(Message title, Span span, std::string text, Safety safety = Safety::Safe);
+
 /// A text after fixing.
 struct Fixed {
   std::string text;

@@ -1,5 +1,6 @@
 #include "testing/meant.h"
 
+#include "base/fixes.h"
 #include "base/text/text.h"
 #include "testing/lookup.h"
 #include "testing/text/rules.h"
@@ -367,7 +368,7 @@ private:
     if (const auto at = written.find(words); at != std::string::npos) {
       written.replace(at, words.size(), others);
       d.help = help(written);
-      d.fix = Fix{texts::Write(written), {{d.span, written}}, Safety::Unsafe};
+      d.fix = single_fix(texts::Write(written), d.span, written, Safety::Unsafe);
     }
     file_.file.diagnostics.push_back(std::move(d));
   }

@@ -1,5 +1,6 @@
 #include "testing/suite.h"
 
+#include "base/fixes.h"
 #include "base/render.h"
 #include "base/text/suggest.h"
 #include "base/text/text.h"
@@ -218,7 +219,7 @@ Diagnostic cannot_read(std::string_view word, const Named& given, const std::str
   if (ending != all.end()) {
     const auto name = slashes(given.text) + std::string(*ending);
     d.help = texts::Write(fmt::format("{} {}", word, name));
-    d.fix = Fix{d.help, {{given.span, name}}, Safety::Unsafe};
+    d.fix = single_fix(d.help, given.span, name, Safety::Unsafe);
   }
   return d;
 }

@@ -10,6 +10,7 @@
 #include "assembler/text/rules.h"
 #include "assembler/text/texts.h"
 #include "assembler/timing.h"
+#include "base/fixes.h"
 #include "base/silence.h"
 #include "base/text/suggest.h"
 #include "base/text/text.h"
@@ -139,7 +140,7 @@ private:
       if (command.info->place == spec::MacroPlace::OnlyInStream && !stream) {
         auto& diagnostic = report(rules::StreamOnly, command.span, texts::AbortsMacro(word),
                                   texts::WriteEnd(spec::macro_id_stream));
-        diagnostic.fix = Fix{texts::Write("end"), {{command.span, "end"}}, Safety::Unsafe};
+        diagnostic.fix = single_fix(texts::Write("end"), command.span, "end", Safety::Unsafe);
         if (!macro.id)
           diagnostic.severity = Severity::Warning; // it may still be sent as a stream
       }
@@ -166,7 +167,7 @@ private:
     auto line = std::string(source_.text(sleep.span));
     line.replace(0, sleep.info->mnemonic.size(), spec::info(MacroCommand::Delay).mnemonic);
     auto& d = report(rules::SleepsOn, sleep.span, texts::SwitchesOff(), texts::Write(line));
-    d.fix = Fix{d.help, {{sleep.span, line}}, Safety::Unsafe};
+    d.fix = single_fix(d.help, sleep.span, line, Safety::Unsafe);
   }
 
   void unreachable(const AssembledMacro& macro, const PlacedCommand& command,
@@ -186,7 +187,7 @@ private:
     auto line = std::string(source_.text(leaves.span));
     line.replace(0, leaves.info->mnemonic.size(), spec::info(MacroCommand::Gosub).mnemonic);
     d.help = texts::WriteOnLine(line, line_of(leaves));
-    d.fix = Fix{texts::Write(line), {{leaves.span, line}}, Safety::Unsafe};
+    d.fix = single_fix(texts::Write(line), leaves.span, line, Safety::Unsafe);
   }
 
   void check_values(const PlacedCommand& command) {
@@ -220,7 +221,7 @@ private:
     const Span span{command.span.end - 1, command.span.end};
     auto& d = report(rules::ShortTime, span, texts::WithoutUnit(ms, ms),
                      texts::Write(fmt::format("{}s", written)));
-    d.fix = Fix{d.help, {{{span.end, span.end}, "s"}}, Safety::Unsafe};
+    d.fix = single_fix(d.help, {span.end, span.end}, "s", Safety::Unsafe);
     if (operand.maximum > UINT8_MAX || drives)
       return;
     const auto statement = std::string(written.substr(0, written.find_last_of(" ,\t")));
@@ -268,7 +269,7 @@ private:
       return;
     const auto line = fmt::format("{} {}", command.info->mnemonic, id);
     d.help = d.help.empty() ? texts::Write(line) : texts::WriteOrCheck(line, id_of(command));
-    d.fix = Fix{texts::Write(line), {{command.operand, id}}, Safety::Unsafe};
+    d.fix = single_fix(texts::Write(line), command.operand, id, Safety::Unsafe);
   }
 
   void check_target(const PlacedCommand& command) {
@@ -364,7 +365,7 @@ private:
                                   roll->value[2] > 0 ? fmt::format(", {}ms", roll->value[2]) : "");
     report(rules::NeverRolls, roll->span, texts::BallNeverRolls(),
            texts::WriteBecause(line, texts::SpeedFirst()))
-        .fix = Fix{texts::Write(line), {{roll->span, line}}, Safety::Unsafe};
+        .fix = single_fix(texts::Write(line), roll->span, line, Safety::Unsafe);
   }
 
   void check_gosub_depth() {

@@ -5,6 +5,7 @@
 #include "assembler/text/layout.h"
 #include "assembler/text/rules.h"
 #include "assembler/text/texts.h"
+#include "base/fixes.h"
 #include "repair/arrange.h"
 
 #include <algorithm>
@@ -62,7 +63,7 @@ private:
       } else if (open != nullptr && is(command, MacroCommand::End) && command.span.size() > 0) {
         auto& d =
             report(rules::LoopOpen, command.span, texts::EndsMacro(), texts::Write("loop_end"));
-        d.fix = Fix{d.help, {{command.span, "loop_end"}}, Safety::Unsafe};
+        d.fix = single_fix(d.help, command.span, "loop_end", Safety::Unsafe);
         d.notes.push_back({open->span, texts::TheLoop()});
         return;
       }
@@ -83,7 +84,7 @@ private:
     if (said <= 1)
       return;
     d.help = texts::Write("loop_start " + std::to_string(said));
-    d.fix = Fix{d.help, {{command.operand, std::to_string(said)}}, Safety::Unsafe};
+    d.fix = single_fix(d.help, command.operand, std::to_string(said), Safety::Unsafe);
   }
 
   /// The number of repetitions in the remarks above a command, `three times`; 0 if there is none.

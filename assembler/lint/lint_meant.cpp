@@ -4,6 +4,7 @@
 #include "assembler/lint/lint_timing.h"
 #include "assembler/text/rules.h"
 #include "assembler/text/texts.h"
+#include "base/fixes.h"
 #include "repair/tokens.h"
 #include "spec/ball.h"
 
@@ -55,7 +56,7 @@ private:
              const std::string& line, Message why = {}) {
     auto d = finding(rule, command.span, std::move(message),
                      why.empty() ? texts::Write(line) : texts::WriteBecause(line, std::move(why)));
-    d.fix = Fix{texts::Write(line), {{command.span, line}}, Safety::Unsafe};
+    d.fix = single_fix(texts::Write(line), command.span, line, Safety::Unsafe);
     diagnostics_.push_back(std::move(d));
   }
 

@@ -6,6 +6,7 @@
 #include "assembler/timing.h"
 #include "assembler/walk.h"
 #include "base/duration.h"
+#include "base/fixes.h"
 #include "spec/api.h"
 
 #include <algorithm>
@@ -109,7 +110,7 @@ private:
     } else if (background.waits == 1 && background.wait->origin == Origin::Written) {
       const auto span = background.wait->span;
       diagnostic.help = texts::WriteOnLine(line, source_.position(span.begin).line);
-      diagnostic.fix = Fix{texts::Write(line), {{span, line}}, Safety::Unsafe};
+      diagnostic.fix = single_fix(texts::Write(line), span, line, Safety::Unsafe);
     }
   }
 

@@ -3,6 +3,7 @@
 #include "assembler/text/grammar.h"
 #include "assembler/text/rules.h"
 #include "assembler/text/texts.h"
+#include "base/fixes.h"
 #include "base/meant.h"
 #include "base/text/suggest.h"
 #include "base/text/text.h"
@@ -189,7 +190,7 @@ Diagnostic unknown_command(const Builder& builder, const char* end) {
   auto diagnostic = finding(rules::UnknownCommand, span, texts::NotACommand(word),
                             meant_or(word, names, texts::ListsCommands("orb spec")));
   if (const auto meant = closest(word, names))
-    diagnostic.fix = Fix{texts::Write(*meant), {{span, *meant}}, Safety::Unsafe};
+    diagnostic.fix = single_fix(texts::Write(*meant), span, *meant, Safety::Unsafe);
   return diagnostic;
 }
 

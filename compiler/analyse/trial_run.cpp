@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <deque>
+#include <functional>
 #include <optional>
 #include <unordered_set>
 #include <utility>
@@ -172,6 +173,7 @@ private:
     if (!open.end.exact || open.end.ties == Ties::Shared || !counter.constant() ||
         is_settled(open.end.origin))
       return none;
+    blur_tied(now_); // the number of rounds tells something of the end
     auto stays = now_;
     auto& loop = stays.loops.back();
     loop.end.range = *where(opposite(mirrored(over)), loop.end.range, counter);
@@ -180,8 +182,6 @@ private:
     auto leaves = now_;
     leaves.loops.pop_back();
     leaves.at = line_ + 1;
-    blur_tied(stays); // the number of rounds tells something of the end
-    blur_tied(leaves);
     decide(stays);
     decide(leaves);
     const auto decider = decider_of(open.end.origin);
@@ -347,12 +347,12 @@ private:
       now_.at = assume(condition, answer) ? take(branch) : none;
       return std::exchange(now_, here);
     };
-    probe(start(Holds::Yes, &yes), [&] {
+    probe(start(Holds::Yes, &yes), most_probed, [&] {
       first.push_back(now_);
       return true;
     });
     std::optional<Moment> meeting;
-    probe(start(Holds::No, no), [&] {
+    probe(start(Holds::No, no), most_probed, [&] {
       const auto same = std::find_if(first.begin(), first.end(), [&](const Moment& one) {
         return one.at == now_.at && one.loops == now_.loops && one.calls == now_.calls;
       });
@@ -524,33 +524,17 @@ private:
     auto first = begin.at;
     auto last = begin.at;
     std::vector<Tested> tests;
-    probing_ = true;
-    for (std::uint32_t n = 0; n < most_cycle && now_.at < flow_.code.size(); ++n) {
-      if (n > 0 && now_.at == begin.at && now_.is_like(begin))
-        break;
-      if (now_.calls.size() > begin.calls.size()) { // in a subroutine
-        go();
-        continue;
+    bool begun = false;
+    bool closed = false;
+    probe(begin, most_cycle, [&] {
+      closed = std::exchange(begun, true) && now_.is_like(begin);
+      if (!closed && now_.calls.size() <= begin.calls.size()) { // not in a subroutine
+        first = std::min(first, now_.at);
+        last = std::max(last, now_.at);
+        note_test(tests);
       }
-      first = std::min(first, now_.at);
-      last = std::max(last, now_.at);
-      const auto& statement = program_.statements[flow_.code[now_.at].statement];
-      if (!statement.error && statement.kind == spec::Statement::If)
-        if (const auto letter = letter_in(program_, program_.as<IfView>(statement).first.left)) {
-          const auto& range = now_.letters[*letter].range;
-          const auto known = std::find_if(tests.begin(), tests.end(),
-                                          [&](const Tested& one) { return one.line == now_.at; });
-          if (known == tests.end())
-            tests.push_back({now_.at, range});
-          else
-            known->range = join(known->range, range);
-        }
-      go();
-    }
-    probing_ = false;
-    stopped_ = false;
-    const bool closed = now_.at == begin.at && now_.is_like(begin);
-    now_ = begin;
+      return !closed;
+    });
     const Tested* last_exit = nullptr;
     for (const auto& test : tests)
       if (closed && leaves(test.line, first, last) &&
@@ -558,6 +542,23 @@ private:
         last_exit = &test;
     if (last_exit != nullptr)
       add_endless(*last_exit);
+  }
+
+  /// Adds what the test of a letter on this line sees.
+  void note_test(std::vector<Tested>& tests) const {
+    const auto& statement = program_.statements[flow_.code[now_.at].statement];
+    if (statement.error || statement.kind != spec::Statement::If)
+      return;
+    const auto letter = letter_in(program_, program_.as<IfView>(statement).first.left);
+    if (!letter)
+      return;
+    const auto& range = now_.letters[*letter].range;
+    const auto known = std::find_if(tests.begin(), tests.end(),
+                                    [&](const Tested& one) { return one.line == now_.at; });
+    if (known == tests.end())
+      tests.push_back({now_.at, range});
+    else
+      known->range = join(known->range, range);
   }
 
   /// True if a test may lead to a line outside of a loop, or end the program.
@@ -622,14 +623,13 @@ private:
     return none;
   }
 
-  /// Follows a path for a few lines, while it does not split and `goes_on` returns true, without
-  /// reporting faults.
-  template <typename GoesOn>
-  void probe(const Moment& way, const GoesOn& goes_on) {
+  /// Follows a path for so many lines at most, while it does not split and `goes_on` returns true,
+  /// without reporting faults.
+  void probe(const Moment& way, std::uint32_t most, const std::function<bool()>& goes_on) {
     const auto here = std::exchange(now_, way);
     const auto line = line_;
     probing_ = true;
-    for (std::uint32_t n = 0; n < most_probed && now_.at < flow_.code.size() && goes_on(); ++n)
+    for (std::uint32_t n = 0; n < most && now_.at < flow_.code.size() && goes_on(); ++n)
       go();
     probing_ = false;
     stopped_ = false;
@@ -640,7 +640,7 @@ private:
   bool comes_back(const Moment& way) {
     const auto here = now_;
     bool same = false;
-    probe(way, [&] {
+    probe(way, most_probed, [&] {
       same = now_.at == here.at && now_.is_like(here);
       return now_.at != here.at;
     });
@@ -653,13 +653,13 @@ private:
     if (ways.size() < 2)
       return meeting;
     std::vector<std::uint64_t> places; // states of the first path
-    probe(ways.front(), [&] {
+    probe(ways.front(), most_probed, [&] {
       places.push_back(now_.hash());
       return true;
     });
     for (std::size_t i = 1; i < ways.size(); ++i) {
       std::optional<Moment> found;
-      probe(ways[i], [&] {
+      probe(ways[i], most_probed, [&] {
         const auto at = std::find(places.begin(), places.end(), now_.hash());
         if (at == places.end())
           return true;

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "base/diagnostic.h"
 #include "base/findings.h"
+#include "base/fixes.h"
 #include "compiler/analyse/flow.h"
 #include "compiler/analyse/settings.h"
 #include "compiler/lint/lint.h"
@@ -26,11 +26,6 @@ inline constexpr std::uint32_t longest_loop = 512;
 /// Degrees: the greatest heading plus one.
 inline constexpr std::int32_t full_turn =
     spec::info(spec::Statement::Goroll).parameters()[0].greatest + 1;
-
-/// Makes a fix of one edit.
-inline Fix single_fix(Message title, Span span, std::string text, Safety safety = Safety::Safe) {
-  return Fix{std::move(title), {Edit{span, std::move(text)}}, safety};
-}
 
 /// The line that adds to a variable or subtracts from it: `N = N + 1`, `n += 1` for a named one.
 std::string stepped(const Program& program, std::string_view name, char sign, std::int64_t step);

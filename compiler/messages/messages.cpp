@@ -1,5 +1,6 @@
 #include "compiler/messages/messages.h"
 
+#include "base/fixes.h"
 #include "base/text/suggest.h"
 #include "base/text/text.h"
 #include "compiler/text/basic_words.h"
@@ -166,7 +167,7 @@ private:
     auto d = make(rules::UnknownStatement, texts::NotAStatement(token_));
     if (best && token_.size() >= least && !repair::is_known_word(token_, repair::Where::Line)) {
       d.help = texts::DidYouMean(*best);
-      d.fix = Fix{texts::Write(*best), {{fault_.span, std::string(*best)}}, Safety::Unsafe};
+      d.fix = single_fix(texts::Write(*best), fault_.span, std::string(*best), Safety::Unsafe);
     }
     return d;
   }
@@ -239,7 +240,7 @@ private:
     auto d = make(rules::BareCondition, texts::ConditionIsNoComparison(),
                   texts::CompareWithZeroLike(word.empty() ? "! 0" : fmt::format("{} ! 0", word)));
     if (end < fault_.span.begin && !token_.empty())
-      d.fix = Fix{d.help, {{{end, end}, " ! 0"}}, Safety::Safe};
+      d.fix = single_fix(d.help, {end, end}, " ! 0", Safety::Safe);
     return d;
   }
 
@@ -299,7 +300,7 @@ std::optional<Diagnostic> foreign_comment(const Program& program, const Fault& f
     return std::nullopt;
   auto d =
       finding(rules::Rem, fault.span, texts::CommentsStartWith('\''), texts::Write(parts.comment));
-  d.fix = Fix{d.help, {{{fault.span.begin, end}, parts.comment}}, Safety::Safe};
+  d.fix = single_fix(d.help, {fault.span.begin, end}, parts.comment, Safety::Safe);
   return d;
 }
 

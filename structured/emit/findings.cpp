@@ -1,5 +1,6 @@
 #include "structured/emit/findings.h"
 
+#include "base/fixes.h"
 #include "base/text/text.h"
 #include "compiler/text/rules.h"
 #include "compiler/text/texts.h"
@@ -279,7 +280,7 @@ private:
     found.message.refill(0, Message::as_is(std::string(name)));
     const auto line = fmt::format("{} = ({}) % {}", name, sum, turn);
     found.help = texts::Write(line);
-    found.fix = Fix{found.help, {{statement.span, line}}, Safety::Unsafe};
+    found.fix = single_fix(found.help, statement.span, line, Safety::Unsafe);
   }
 
   Program& program_;

@@ -2,6 +2,7 @@
 #include "structured/meaning/check_pass.h"
 #include "structured/text/foreign_words.h"
 
+#include "base/fixes.h"
 #include <algorithm>
 #include <fmt/format.h>
 #include <limits>
@@ -103,11 +104,10 @@ private:
     auto& d =
         report(rules::ConditionAsValue, program_.nodes[node].span, texts::ConditionNoNumber());
     if (const auto word = word_between_numbers(node))
-      d.fix = Fix{texts::CombineBits(),
-                  {{*word, program_.nodes[node].kind == NodeKind::And ? "&" : "|"}},
-                  Safety::Unsafe};
+      d.fix = single_fix(texts::CombineBits(), *word,
+                         program_.nodes[node].kind == NodeKind::And ? "&" : "|", Safety::Unsafe);
     else if (const auto line = with_if(statement, node))
-      d.fix = Fix{texts::UseIf(), {{statement.span, *line}}, Safety::Unsafe};
+      d.fix = single_fix(texts::UseIf(), statement.span, *line, Safety::Unsafe);
     else
       d.help = texts::SetThere("if … then");
   }
@@ -236,7 +236,7 @@ private:
       return;
     auto& d = report(*answer->rule, nodes[n].span, answer->message, answer->help);
     if (!answer->line.empty())
-      d.fix = Fix{d.help, {{nodes[n].span, answer->line}}, Safety::Unsafe};
+      d.fix = single_fix(d.help, nodes[n].span, answer->line, Safety::Unsafe);
   }
 
   /// Reports `1 / 2`, which is 0.
@@ -262,7 +262,7 @@ private:
                           ? fmt::format("{} / {}", factor, right.value)
                           : fmt::format("{} * {} / {}", factor, left.value, right.value);
     d.help = texts::Write(line);
-    d.fix = Fix{d.help, {{nodes[product].span, line}}, Safety::Unsafe};
+    d.fix = single_fix(d.help, nodes[product].span, line, Safety::Unsafe);
   }
 
   /// Reports a sum or product of constants that exceeds the number range.
@@ -314,7 +314,7 @@ private:
       return;
     const auto comparison = fmt::format("{}{}", program_.text_of(asked), number);
     d.help = texts::Write(comparison);
-    d.fix = Fix{d.help, {{nodes[side].span, comparison}}, Safety::Unsafe};
+    d.fix = single_fix(d.help, nodes[side].span, comparison, Safety::Unsafe);
   }
 
   /// Reports 2147483648 without a minus sign before it.
@@ -373,7 +373,7 @@ private:
                                   program_.text_of({word.end, all.end}));
     auto& d = report(compiler::rules::ConstantComparison, all,
                      compiler::one_answer(program_.text_of(all), *answer, line));
-    d.fix = Fix{d.help, {{word, other}}, Safety::Unsafe};
+    d.fix = single_fix(d.help, word, other, Safety::Unsafe);
   }
 
   compiler::Timers timers_;

@@ -3,6 +3,7 @@
 #include "repair/idioms.h"
 #include "structured/meaning/check_pass.h"
 
+#include "base/fixes.h"
 #include <algorithm>
 #include <fmt/format.h>
 
@@ -84,7 +85,7 @@ private:
           fmt::format("{}{}", word, names_.routines[sub->routine].parameters > 0 ? "(…)" : "");
       d.help = texts::ItIsASub(call);
       if (call == word)
-        d.fix = Fix{texts::CallSub(), {{jump.span, word}}, Safety::Unsafe};
+        d.fix = single_fix(texts::CallSub(), jump.span, word, Safety::Unsafe);
       return;
     }
     std::vector<std::string_view> here;
@@ -95,7 +96,7 @@ private:
     if (!meant)
       return;
     d.help = texts::DidYouMean(*meant);
-    d.fix = Fix{texts::Write(*meant), {{jump.name_span, *meant}}, Safety::Unsafe};
+    d.fix = single_fix(texts::Write(*meant), jump.name_span, *meant, Safety::Unsafe);
   }
 
   /// True if every block around `label` is also around `other`.

@@ -1,6 +1,7 @@
 #include "base/text/text.h"
 #include "structured/meaning/check_pass.h"
 
+#include "base/fixes.h"
 #include <algorithm>
 #include <fmt/format.h>
 #include <map>
@@ -103,7 +104,7 @@ private:
     auto& d = report(compiler::rules::InvertedWait, root.span,
                      compiler::texts::ForOneReadingOnly(row.word, row.greatest),
                      texts::Write("while " + turned));
-    d.fix = Fix{d.help, {{root.span, std::move(turned)}}, Safety::Unsafe};
+    d.fix = single_fix(d.help, root.span, std::move(turned), Safety::Unsafe);
   }
 
   /// Reports code after a loop without an exit.

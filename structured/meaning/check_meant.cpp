@@ -1,6 +1,7 @@
 #include "base/text/text.h"
 #include "structured/meaning/check_pass.h"
 
+#include "base/fixes.h"
 #include <algorithm>
 #include <fmt/format.h>
 
@@ -125,7 +126,7 @@ private:
       auto& d =
           report(compiler::rules::LostUpdate, span,
                  (up ? texts::GrowsPast : texts::FallsPast)(name, most->value), texts::Write(line));
-      d.fix = Fix{d.help, {{{span.begin, span.begin + 3}, std::string(word)}}, Safety::Unsafe};
+      d.fix = single_fix(d.help, {span.begin, span.begin + 3}, std::string(word), Safety::Unsafe);
       return;
     }
   }

@@ -2,6 +2,7 @@
 #include "base/text/text.h"
 #include "structured/meaning/check_pass.h"
 
+#include "base/fixes.h"
 #include <algorithm>
 #include <fmt/format.h>
 
@@ -73,7 +74,7 @@ private:
     const auto line = at(symbol.statement).span;
     d.help = texts::Write(fmt::format("{}{}{}", program_.text_of({line.begin, symbol.span.begin}),
                                       *meant, program_.text_of({symbol.span.end, line.end})));
-    d.fix = Fix{d.help, {{symbol.span, std::string(*meant)}}, Safety::Unsafe};
+    d.fix = single_fix(d.help, symbol.span, std::string(*meant), Safety::Unsafe);
   }
 
   bool in_main_file(Span span) const {

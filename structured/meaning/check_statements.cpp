@@ -2,6 +2,7 @@
 #include "repair/arrange.h"
 #include "structured/meaning/check_pass.h"
 
+#include "base/fixes.h"
 #include <algorithm>
 #include <fmt/format.h>
 
@@ -190,7 +191,7 @@ private:
     auto& d = report(rules::SwappedValues, named.span,
                      is_heading ? texts::SpeedHere(name) : texts::HeadingHere(name),
                      texts::Write(fmt::format("goroll {}{}", values, program_.text_of(rest))));
-    d.fix = Fix{d.help, {{{heading.span.begin, speed.span.end}, values}}, Safety::Unsafe};
+    d.fix = single_fix(d.help, {heading.span.begin, speed.span.end}, values, Safety::Unsafe);
   }
 
   void help_backwards(const Statement& statement, Diagnostic& d) {
@@ -290,9 +291,9 @@ private:
                                    : fmt::format("{} step {}", program_.text_of(counted), -step);
     auto& d = report(rules::LoopNeverRuns, counted, texts::CountsAway(from->value, to->value),
                      texts::Write(turned));
-    d.fix = Fix{d.help,
-                {{{counted.begin, item(statement, size(statement) >= 4 ? 3 : 2).span.end}, turned}},
-                Safety::Unsafe};
+    d.fix =
+        single_fix(d.help, {counted.begin, item(statement, size(statement) >= 4 ? 3 : 2).span.end},
+                   turned, Safety::Unsafe);
   }
 
   void check_next(const Statement& statement) {
@@ -384,7 +385,7 @@ private:
         text == fmt::format("{}s", value->value / second))
       meant = fmt::format("{}ms", value->value / second);
     if (!meant.empty())
-      d.fix = Fix{texts::Write(meant), {{part.span, meant}}, Safety::Unsafe};
+      d.fix = single_fix(texts::Write(meant), part.span, meant, Safety::Unsafe);
     return &d;
   }
 

@@ -1,5 +1,6 @@
 #include "structured/meaning/symbols.h"
 
+#include "base/fixes.h"
 #include "compiler/text/texts.h"
 #include "spec/limits.h"
 #include "structured/meaning/unknown_names.h"
@@ -388,7 +389,7 @@ private:
                               ? fmt::format("return {}", value)
                               : fmt::format("{}({})", program_.text_of(node.span), value);
         d->help = texts::Write(line);
-        d->fix = Fix{d->help, {{statement.span, line}}, Safety::Unsafe};
+        d->fix = single_fix(d->help, statement.span, line, Safety::Unsafe);
       }
     } else if (element && (statement.kind == Kind::For)) {
       report(rules::WrongUse, node.span, texts::LoopNoElement());
@@ -465,7 +466,7 @@ private:
     const auto& header = program_.statements[routine.statement];
     if (routine.parameters == 0 && symbol.kind == SymbolKind::Sub) {
       d.help = texts::Write(name);
-      d.fix = Fix{d.help, {{span, std::string(name)}}, Safety::Unsafe};
+      d.fix = single_fix(d.help, span, std::string(name), Safety::Unsafe);
     }
     if (count < routine.parameters)
       d.help = texts::ArgumentMissing(
@@ -478,7 +479,7 @@ private:
     const auto& declared = program_.statements[symbol.statement];
     const Span word{declared.span.begin, declared.name_span.begin};
     d.help = texts::MakeVariable(program_.text_of({word.end, declared.span.end}));
-    d.fix = Fix{texts::ItAVariable(), {{word, ""}}, Safety::Unsafe};
+    d.fix = single_fix(texts::ItAVariable(), word, "", Safety::Unsafe);
   }
 
   void look_up_call(std::uint32_t i) {

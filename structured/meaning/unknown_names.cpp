@@ -1,5 +1,6 @@
 #include "structured/meaning/unknown_names.h"
 
+#include "base/fixes.h"
 #include "base/meant.h"
 #include "base/text/suggest.h"
 #include "structured/text/foreign_words.h"
@@ -102,7 +103,7 @@ void UnknownNames::suggest(Span span, const std::vector<std::string_view>& candi
     return;
   if (const auto meant = closest(name, candidates)) {
     d.help = texts::DidYouMean(*meant);
-    d.fix = Fix{texts::Write(*meant), {Edit{span, *meant}}, Safety::Unsafe};
+    d.fix = single_fix(texts::Write(*meant), span, *meant, Safety::Unsafe);
   }
 }
 

@@ -1,5 +1,6 @@
 #include "structured/text/foreign_words.h"
 
+#include "base/fixes.h"
 #include "base/text/text.h"
 #include "repair/idioms.h"
 #include "structured/text/rules.h"
@@ -115,11 +116,10 @@ Diagnostic foreign(const Program& program, Span found, std::string_view language
     return here.size() > 1 && (is_name_char(c) || signs.find(c) != std::string_view::npos) ? " "
                                                                                            : "";
   };
-  d.fix =
-      Fix{d.help,
-          {Edit{found, fmt::format("{}{}{}", found.begin > 0 ? gap(found.begin - 1, ")]") : "",
-                                   here, gap(found.end, is_name_char(word.back()) ? "" : "("))}},
-          Safety::Safe};
+  d.fix = single_fix(d.help, found,
+                     fmt::format("{}{}{}", found.begin > 0 ? gap(found.begin - 1, ")]") : "", here,
+                                 gap(found.end, is_name_char(word.back()) ? "" : "(")),
+                     Safety::Safe);
   return d;
 }
 

@@ -1,5 +1,6 @@
 #include "structured/text/lines.h"
 
+#include "base/fixes.h"
 #include "base/text/text.h"
 #include "repair/tokens.h"
 #include "structured/text/foreign_words.h"
@@ -510,8 +511,8 @@ void Lines::leave_case(Input& in, std::string_view word, Position position) {
   const char* const end = find_line_end(in.current(), end_);
   const bool two = std::string_view(end, static_cast<std::size_t>(end_ - end)).starts_with("\r\n");
   if (position == Position::Line && end != end_ && std::all_of(in.current(), end, is_blank))
-    d.fix =
-        Fix{texts::RemoveLine(), {{builder_.span(begin, end + (two ? 2 : 1)), ""}}, Safety::Safe};
+    d.fix = single_fix(texts::RemoveLine(), builder_.span(begin, end + (two ? 2 : 1)), "",
+                       Safety::Safe);
   if (d.fix)
     d.help = d.fix->title;
   builder_.report(std::move(d));

@@ -1,5 +1,6 @@
 #include "structured/text/link_blocks.h"
 
+#include "base/fixes.h"
 #include "base/text/text.h"
 #include "structured/text/rules.h"
 #include "structured/text/structured_words.h"
@@ -168,7 +169,7 @@ private:
       if (statement.role() == Kind::Robot && statement.robot == spec::Statement::End &&
           last != none) {
         d.help = texts::WriteOnLine(block.end_words, line_of(j));
-        d.fix = Fix{d.help, {{statement.span, std::string(block.end_words)}}, Safety::Unsafe};
+        d.fix = single_fix(d.help, statement.span, std::string(block.end_words), Safety::Unsafe);
         return;
       }
       break;
@@ -179,9 +180,9 @@ private:
     const auto after = std::min(text.find_first_of("\r\n", program_.statements[last].span.end),
                                 std::size_t{file_.end});
     const auto at = static_cast<std::uint32_t>(after);
-    d.fix = Fix{d.help,
-                {{{at, at}, fmt::format("\n{}{}", std::string(column, ' '), block.end_words)}},
-                Safety::Unsafe};
+    d.fix = single_fix(d.help, {at, at},
+                       fmt::format("\n{}{}", std::string(column, ' '), block.end_words),
+                       Safety::Unsafe);
   }
 
   std::uint32_t column_of(std::uint32_t i) const {
@@ -276,7 +277,7 @@ private:
       return closes_block(statement.role()) ? Mend{texts::RemoveLine(), remove(statement)} : Mend{};
     const auto& opener = program_.statements[open_.back()];
     const auto reopen = [&](const std::string& word) {
-      return Fix{texts::Write(word), {{opener.word, word}}, Safety::Unsafe};
+      return single_fix(texts::Write(word), opener.word, word, Safety::Unsafe);
     };
     if (statement.role() == Kind::EndSub && returns_nothing(i))
       return {texts::WriteInstead("sub" + after_word(opener), "function"), reopen("sub")};
@@ -286,7 +287,7 @@ private:
     const std::string end(block->end_words);
     Mend mend{texts::WriteBecause(end, texts::OpenBlock(block->word))};
     if (closes_block(statement.role()))
-      mend.fix = Fix{texts::Write(end), {{statement.span, end}}, Safety::Unsafe};
+      mend.fix = single_fix(texts::Write(end), statement.span, end, Safety::Unsafe);
     return mend;
   }
 
@@ -299,9 +300,9 @@ private:
     if (text.find_first_not_of(" \t", line) != statement.span.begin ||
         text.find_first_of("\r\n", statement.span.end) != statement.span.end)
       return std::nullopt;
-    return Fix{texts::RemoveLine(),
-               {{{static_cast<std::uint32_t>(line), static_cast<std::uint32_t>(next)}, {}}},
-               Safety::Unsafe};
+    return single_fix(texts::RemoveLine(),
+                      {static_cast<std::uint32_t>(line), static_cast<std::uint32_t>(next)}, "",
+                      Safety::Unsafe);
   }
 
   /// True if the innermost open block is a function that returns no value up to its `end sub`.

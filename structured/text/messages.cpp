@@ -1,5 +1,6 @@
 #include "structured/text/messages.h"
 
+#include "base/fixes.h"
 #include "base/text/suggest.h"
 #include "base/text/text.h"
 #include "compiler/text/texts.h"
@@ -150,7 +151,7 @@ Diagnostic foreign_character(const Program& program, Span found) {
       const bool blank = name != &texts::InvisibleCharacter;
       auto d = finding(rules::MalformedLine, found, Message(*name, {}),
                        blank ? texts::WriteBlank() : texts::RemoveIt());
-      d.fix = Fix{d.help, {{found, blank ? " " : ""}}, Safety::Safe};
+      d.fix = single_fix(d.help, found, blank ? " " : "", Safety::Safe);
       return d;
     }
   const auto is_part = [&](std::uint32_t at) {
@@ -240,7 +241,7 @@ Diagnostic single_quotes(const Program& program, Span found) {
   auto quoted = fmt::format("\"{}\"", inner);
   auto d = finding(rules::ForeignWord, found, texts::StartsComment(), texts::Write(quoted));
   if (inner.find('"') == std::string_view::npos)
-    d.fix = Fix{d.help, {Edit{found, std::move(quoted)}}, Safety::Safe};
+    d.fix = single_fix(d.help, found, std::move(quoted), Safety::Safe);
   return d;
 }
 
@@ -265,9 +266,8 @@ Diagnostic line_number(const Program& program, Span found) {
   if (numbered * 2 > all || after >= end)
     return d;
   d.help = texts::Write(text.substr(after, end - after));
-  d.fix = Fix{compiler::texts::RemoveNumber(),
-              {{{found.begin, static_cast<std::uint32_t>(after)}, {}}},
-              Safety::Unsafe};
+  d.fix = single_fix(compiler::texts::RemoveNumber(),
+                     {found.begin, static_cast<std::uint32_t>(after)}, "", Safety::Unsafe);
   return d;
 }
 

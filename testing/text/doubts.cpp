@@ -2,6 +2,7 @@
 
 #include "base/cursor.h"
 #include "base/duration.h"
+#include "base/fixes.h"
 #include "base/text/text.h"
 #include "repair/tokens.h"
 #include "report/texts.h"
@@ -50,7 +51,7 @@ private:
   /// Offers the line as it should be written.
   static void write(Diagnostic& d, const Expectation& one, const std::string& line) {
     d.help = file_texts::Write(line);
-    d.fix = Fix{d.help, {{one.span, line}}, Safety::Unsafe};
+    d.fix = single_fix(d.help, one.span, line, Safety::Unsafe);
   }
 
   /// The whole seconds of run time that a moment needs.
@@ -73,14 +74,13 @@ private:
       const auto word = cursor.word();
       if (word == info(LineWord::For).word) {
         cursor.word();
-        d.fix = Fix{file_texts::Write(line), {{cursor.span_from(begin), line}}, Safety::Unsafe};
+        d.fix = single_fix(file_texts::Write(line), cursor.span_from(begin), line, Safety::Unsafe);
         return;
       }
       if (word == info(LineWord::Test).word || n == source_.line_count()) {
         const auto at = source_.line_start(word == info(LineWord::Test).word ? n : 1);
-        d.fix = Fix{file_texts::Write(line),
-                    {{{at, at}, line + std::string(line_end_of(source_.text()))}},
-                    Safety::Unsafe};
+        d.fix = single_fix(file_texts::Write(line), {at, at},
+                           line + std::string(line_end_of(source_.text())), Safety::Unsafe);
         return;
       }
     }

@@ -1,5 +1,6 @@
 #include "testing/text/file_reader.h"
 
+#include "base/fixes.h"
 #include "base/meant.h"
 #include "repair/tokens.h"
 #include "spec/colours.h"
@@ -157,7 +158,7 @@ void FileReader::take_color(Cursor& cursor, Expectation& one, const SlotValue& v
       d.span.begin == value.span.begin && one.text.size() == size &&
       parse_number<std::uint32_t>(std::string_view(one.text).substr(1), 16)) {
     d.help = file_texts::Write(one.text);
-    d.fix = Fix{d.help, {{value.span, one.text}}, Safety::Unsafe};
+    d.fix = single_fix(d.help, value.span, one.text, Safety::Unsafe);
   }
 }
 
@@ -191,7 +192,7 @@ void FileReader::read_error(Cursor& cursor, Expectation& one) {
                  meant_or(text, known, file_texts::RobotErrors(listed(known))));
   if (const auto meant = closest(text, known)) {
     auto& d = file_.diagnostics.back();
-    d.fix = Fix{file_texts::Write(*meant), {{span, *meant}}, Safety::Unsafe};
+    d.fix = single_fix(file_texts::Write(*meant), span, *meant, Safety::Unsafe);
   }
 }
 
