@@ -41,6 +41,8 @@ Range divide(const Range& left, const Range& right) {
 Range remainder(const Range& left, const Range& right) {
   if (left.constant() && right.constant() && right.lo != 0)
     return hull({static_cast<std::int64_t>(left.lo) % right.lo});
+  if (right.constant() && has_one_quotient(left, right.lo))
+    return {left.lo % right.lo, left.hi % right.lo};
   const auto most = std::min(magnitude(left), std::max<std::int64_t>(magnitude(right) - 1, 0));
   return narrow(left.lo < 0 ? -most : 0, left.hi > 0 ? most : 0);
 }
@@ -134,6 +136,11 @@ Range apply(spec::Function function, const Range& operand) {
     return {0, std::max(-operand.lo, operand.hi)};
   }
   return {};
+}
+
+bool has_one_quotient(Range left, std::int32_t divisor) {
+  return divisor != 0 && (left.lo >= 0 || left.hi <= 0) &&
+         std::int64_t{left.lo} / divisor == std::int64_t{left.hi} / divisor;
 }
 
 std::optional<Range> where(Orders orders, Range left, Range right) {

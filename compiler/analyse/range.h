@@ -45,6 +45,9 @@ Range apply(spec::Operator op, const Range& left, const Range& right);
 /// The possible results of a function for operands that it accepts.
 Range apply(spec::Function function, const Range& operand);
 
+/// True if all values have the same sign and the same quotient: then remainders keep their order.
+bool has_one_quotient(Range left, std::int32_t divisor);
+
 /// The values of the left side of a comparison for which it can hold; nothing if there are none.
 std::optional<Range> where(Orders orders, Range left, Range right);
 

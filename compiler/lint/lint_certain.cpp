@@ -9,10 +9,6 @@
 namespace orb::compiler {
 namespace {
 
-bool meets(Span a, Span b) {
-  return a.begin < b.end && b.begin < a.end;
-}
-
 /// True if the letter of an unbounded sum appears at `span`.
 bool is_about(const Program& program, const Diagnostic& grown, Span span) {
   return std::any_of(

@@ -30,6 +30,11 @@ inline constexpr std::int32_t full_turn =
 /// The line that adds to a variable or subtracts from it: `N = N + 1`, `n += 1` for a named one.
 std::string stepped(const Program& program, std::string_view name, char sign, std::int64_t step);
 
+/// True if two spans overlap.
+constexpr bool meets(Span a, Span b) {
+  return a.begin < b.end && b.begin < a.end;
+}
+
 // The passes, in the order in which they run. Each traverses the program once and is independent of
 // the others.
 

@@ -469,7 +469,20 @@ bool ValuesPass::run(Jumps jumps) {
 
 bool lint_values(const Program& program, const Flow& flow, const Target& target, Jumps jumps,
                  Findings& findings) {
-  return ValuesPass(program, flow, target, findings).run(jumps);
+  const bool at_risk = ValuesPass(program, flow, target, nullptr, findings).run(jumps);
+  const auto usual = usual_values(program, flow);
+  if (jumps == Jumps::Unknown || usual == UsualValues{})
+    return at_risk;
+  Findings more;
+  ValuesPass(program, flow, target, &usual, more).run(jumps);
+  const auto& all = findings.all();
+  for (auto& one : more.all())
+    if (one.rule == &rules::MayLeaveRange &&
+        std::none_of(all.begin(), all.end(), [&](const Diagnostic& d) {
+          return d.severity != Severity::Info && meets(d.span, one.span);
+        }))
+      findings.add(std::move(one));
+  return at_risk;
 }
 
 } // namespace orb::compiler

@@ -59,87 +59,23 @@ void ValuesPass::take_up(std::uint32_t code) {
 void ValuesPass::check_outside(const Item& value, std::string_view word,
                                const spec::Parameter& parameter) {
   note_risk(value.value);
+  if (usual_ != nullptr)
+    return check_usual(known_[value.value], value.span, parameter.least, parameter.greatest,
+                       allowed_values(word, parameter));
   const auto& range = range_of(value);
   if (range.misses(parameter.least, parameter.greatest))
     add_out_of_range(value, word, parameter);
-  else if (!check_loop_range(value, word, parameter)) {
-    if (known_[value.value].exact)
-      check_may_leave(value, word, parameter);
-    else if (const auto usual = usual_range(value); usual && usual->lo < parameter.least)
-      add_can_be(value, allowed_values(word, parameter), usual->lo);
-    else if (usual && usual->hi > parameter.greatest)
-      add_can_be(value, allowed_values(word, parameter), usual->hi);
-  }
+  else if (!check_loop_range(value, word, parameter) && known_[value.value].exact)
+    check_may_leave(value, word, parameter);
 }
 
-void ValuesPass::add_can_be(const Item& value, Message allowed, std::int32_t number) {
-  findings_.add(rules::MayLeaveRange, value.span,
-                texts::ButCanBeOne(std::move(allowed), program_.text_of(value.span), number));
-}
-
-std::optional<Range> ValuesPass::usual_range(const Item& value) const {
-  const auto begin = program_.nodes[value.value].first;
-  std::vector<Value> usual;
-  bool sensors = false;
-  for (auto n = begin; n <= value.value; ++n) {
-    const auto& node = program_.nodes[n];
-    if (node.kind == NodeKind::System) {
-      const auto& row = spec::variables[node.what];
-      const auto range = usual_values(row);
-      if (std::exchange(sensors, true) || !range || is_compared(row.variable))
-        return std::nullopt;
-      usual.push_back({*range});
-    } else if (keeps_usual(node)) {
-      usual.push_back(value_of(program_, n, usual, begin));
-    } else {
-      return std::nullopt;
-    }
-  }
-  return sensors ? std::optional(usual.back().range) : std::nullopt;
-}
-
-std::optional<Range> ValuesPass::usual_values(const spec::VariableInfo& row) const {
-  constexpr Range way{-100, 100};    // cm
-  constexpr Range shaken{0, 2000};   // 0.001 g; 1000 at rest
-  constexpr Range battery{700, 800}; // 0.01 V
-  if (row.unit == "cm")
-    return way;
-  if (row.variable == spec::Variable::Accelone)
-    return shaken;
-  if (row.variable == spec::Variable::Vbatt)
-    return battery;
-  if (row.unit != "ms")
-    return std::nullopt;
-  std::optional<Range> time; // assigned by the program
-  for (const auto& place : flow_.all(spec::Statement::Let)) {
-    const auto let = program_.as<LetView>(program_.statements[place.statement]);
-    const auto number = number_in(program_, let.expression);
-    if (let.variable.kind == ItemKind::System && number &&
-        static_cast<spec::Variable>(let.variable.value) == row.variable)
-      if (std::exchange(time, Range{0, *number}).value_or(Range{0, *number}) != Range{0, *number})
-        return std::nullopt; // it is unknown which number it counts from
-  }
-  return time;
-}
-
-bool ValuesPass::is_compared(spec::Variable variable) const {
-  const auto is_it = [&](const Node& node) {
-    return node.kind == NodeKind::System && static_cast<spec::Variable>(node.what) == variable;
-  };
-  const auto reads = [&](const Item& side) {
-    const auto nodes = nodes_of(program_, side);
-    return std::any_of(nodes.begin(), nodes.end(), is_it);
-  };
-  const auto bounds = [&](const Comparison& comparison) {
-    const auto test = sensor_test(program_, comparison);
-    const bool waits = test && test->number == 0 && spec::info(variable).unit == "ms";
-    return !waits && (reads(comparison.left) || reads(comparison.right));
-  };
-  const auto& all = flow_.all(spec::Statement::If);
-  return std::any_of(all.begin(), all.end(), [&](const Flow::Place& place) {
-    const auto condition = program_.as<IfView>(program_.statements[place.statement]);
-    return bounds(condition.first) || (condition.second && bounds(*condition.second));
-  });
+void ValuesPass::check_usual(const Value& value, Span span, std::int64_t least,
+                             std::int64_t greatest, Message allowed) {
+  const bool below = value.range.lo < least && value.origin == Origin::Motion;
+  if (value.exact && value.origin != Origin::Program && (below || value.range.hi > greatest))
+    findings_.add(rules::MayLeaveRange, span,
+                  texts::ButCanBeOne(std::move(allowed), program_.text_of(span),
+                                     below ? value.range.lo : value.range.hi));
 }
 
 void ValuesPass::check_may_leave(const Item& value, std::string_view word,
@@ -233,14 +169,6 @@ bool ValuesPass::check_loop_range(const Item& value, std::string_view word,
     d.help = texts::EndLoopAt(parameter.greatest);
   }
   return true;
-}
-
-bool ValuesPass::keeps_usual(const Node& node) {
-  if (node.kind == NodeKind::Call)
-    return spec::functions[node.what].function == spec::Function::Abs;
-  if (node.kind == NodeKind::Binary)
-    return keeps_ends(node) || static_cast<spec::Operator>(node.what) == spec::Operator::Divide;
-  return node.kind != NodeKind::Letter && node.kind != NodeKind::Indexed;
 }
 
 bool ValuesPass::keeps_ends(const Node& node) {

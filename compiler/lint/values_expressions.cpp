@@ -16,16 +16,23 @@ constexpr auto clearing_slots = [] {
 }();
 
 /// A sensor, given its index in `spec::variables`.
-Value sensor(std::size_t index) {
+Value sensor(std::size_t index, const std::optional<Range>& usual) {
   const auto& row = spec::variables[index];
-  return {{row.least, row.greatest}, reaches_ends[index], reaches_ends[index]};
+  Value value{usual.value_or(Range{row.least, row.greatest})};
+  value.exact = value.dense = usual || reaches_ends[index];
+  if (usual)
+    value.origin = row.unit == "ms" ? Origin::World : Origin::Motion;
+  value.fresh = usual && row.unit == "cm"; // both places are independent of each other
+  return value;
 }
 
 } // namespace
 
 Value ValuesPass::known_of_sensor(std::size_t index) const {
   const auto own = letter_of_sensor_[index];
-  return own != 0 && now_[own].bounded ? now_[own] : sensor(index);
+  return own != 0 && now_[own].bounded
+             ? now_[own]
+             : sensor(index, usual_ == nullptr ? std::nullopt : (*usual_)[index]);
 }
 
 void ValuesPass::compute(std::uint32_t begin, std::uint32_t end) {
@@ -124,6 +131,9 @@ void ValuesPass::check_call(const Node& node, std::uint32_t index) {
     findings_.add(rules::AlwaysOne, node.span, texts::RndIsAlwaysOne(), texts::WriteRndTwo());
   if (range.lo < row.least || range.hi > row.greatest)
     note_risk(index - 1);
+  if (usual_ != nullptr)
+    return check_usual(known_[index - 1], program_.nodes[index - 1].span, row.least, row.greatest,
+                       texts::TakesOrMore(row.word, row.least));
   if (!range.misses(row.least, row.greatest))
     return;
   findings_.add(rules::ValueOutOfRange, program_.nodes[index - 1].span,

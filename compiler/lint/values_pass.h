@@ -5,6 +5,7 @@
 #include "compiler/analyse/range.h"
 #include "compiler/analyse/reading.h"
 #include "compiler/lint/lint_passes.h"
+#include "compiler/lint/usual_values.h"
 #include "compiler/text/rules.h"
 #include "spec/limits.h"
 
@@ -54,12 +55,14 @@ struct Loop {
 };
 
 /// Propagates the values of letters along all paths, then walks the lines in text order and reports
-/// bad values. Large because each check of a value has its own member, and all of them need the
-/// state of the letters at the current line.
+/// bad values. Given the usual values of sensors, takes those for all that occur; then only
+/// MayLeaveRange counts. Large because each check of a value has its own member, and all of them
+/// need the state of the letters at the current line.
 class ValuesPass {
 public:
-  ValuesPass(const Program& program, const Flow& flow, const Target& target, Findings& findings)
-      : program_(program), flow_(flow), target_(target), findings_(findings),
+  ValuesPass(const Program& program, const Flow& flow, const Target& target,
+             const UsualValues* usual, Findings& findings)
+      : program_(program), flow_(flow), target_(target), usual_(usual), findings_(findings),
         known_(program.nodes.size()), ways_(program, flow) {}
 
   /// If jumps are unknown, follows values only up to the next line that a jump may reach. Returns
@@ -159,17 +162,14 @@ private:
   }
   void check_outside(const Item& value, std::string_view word, const spec::Parameter& parameter);
 
-  /// The usual range of an expression of numbers and one sensor in a program that drives, if known
-  /// for that sensor. Nothing if the program compares the sensor: then it may know its range.
-  std::optional<Range> usual_range(const Item& value) const;
-  static bool keeps_usual(const Node& node);
-  std::optional<Range> usual_values(const spec::VariableInfo& row) const;
-  bool is_compared(spec::Variable variable) const;
+  /// Reports a bad value that sensors usually cause: one above the allowed values, or below if it
+  /// is no time, which a program may know to be short.
+  void check_usual(const Value& value, Span span, std::int64_t least, std::int64_t greatest,
+                   Message allowed);
 
   void check_may_leave(const Item& value, std::string_view word, const spec::Parameter& parameter);
 
   void add_may_leave(const Item& value, Message allowed, Message help);
-  void add_can_be(const Item& value, Message allowed, std::int32_t number);
 
   void add_out_of_range(const Item& value, std::string_view word, const spec::Parameter& parameter);
 
@@ -262,6 +262,7 @@ private:
   const Program& program_;
   const Flow& flow_;
   const Target& target_;
+  const UsualValues* usual_; ///< null: any value that a sensor can have
   Findings& findings_;
   std::array<Letter, most_letters> letters_{};
   std::vector<Value> known_; ///< by node
