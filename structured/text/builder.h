@@ -67,7 +67,20 @@ public:
   void binary(NodeKind kind, std::uint8_t what) {
     const auto& right = program_.nodes.back();
     const auto& left = program_.nodes[right.first - 1];
-    over(kind, what, left.first, {left.span.begin, right.span.end});
+    over(kind, what, left.first, whole(left.span, right.span));
+  }
+  /// From one operand to the other, with the brackets around each.
+  Span whole(Span left, Span right) const {
+    Span both{left.begin, right.end};
+    for (auto at = left.end; at < right.begin; ++at) {
+      if (base_[at] == ')')
+        while (base_[--both.begin] != '(') {
+        }
+      if (base_[at] == '(')
+        while (base_[both.end++] != ')') {
+        }
+    }
+    return both;
   }
   void operation(char sign) {
     binary(NodeKind::Binary, static_cast<std::uint8_t>(*spec::find_operator(sign)));
