@@ -135,10 +135,42 @@ private:
       } else if (statement.kind == Statement::Next && !walk.round) {
         walk.round = true;
         at = body_of(at);
+      } else if (statement.kind == Statement::If && walk.what != Shows::Roll) {
+        return follow_branches(walk, at);
       } else {
         return {statement.kind == Statement::End ? Fate::Kind::Ends : Fate::Kind::Seen};
       }
     }
+    return {};
+  }
+
+  /// A light is replaced if both branches replace it.
+  Fate follow_branches(const Walk& walk, std::uint32_t at) const {
+    const auto& statement = statement_of(at);
+    Fate fate;
+    for (const auto branch : {statement.then_branch, statement.else_branch}) {
+      auto on = walk;
+      on.steps += 8;
+      fate =
+          branch == none ? follow(on, at + 1) : follow_branch(on, at, program_.statements[branch]);
+      if (fate.kind != Fate::Kind::Replaced)
+        return {};
+    }
+    return fate;
+  }
+
+  Fate follow_branch(Walk& walk, std::uint32_t at, const StatementNode& branch) const {
+    if (branch.error || is_foreign_hand(branch.kind))
+      return {};
+    if (shows(branch.kind) == walk.what)
+      return {Fate::Kind::Replaced, at, walk.round};
+    if (spec::info(branch.kind).after == spec::After::Falls)
+      return follow(walk, at + 1);
+    if (branch.kind == Statement::Goto)
+      for (const auto& jump : flow_.jumps_of(flow_.code[at]))
+        if (jump.item == branch.items_begin && jump.to != none &&
+            jump.to > at) // no loop that waits
+          return follow(walk, jump.to);
     return {};
   }
 

@@ -469,12 +469,15 @@ bool ValuesPass::run(Jumps jumps) {
 
 bool lint_values(const Program& program, const Flow& flow, const Target& target, Jumps jumps,
                  Findings& findings) {
-  const bool at_risk = ValuesPass(program, flow, target, nullptr, findings).run(jumps);
+  const auto run = [&](const UsualValues* usual, Findings& found) {
+    return ValuesPass(program, flow, target, usual, found).run(jumps);
+  };
+  const bool at_risk = run(nullptr, findings);
   const auto usual = usual_values(program, flow);
   if (jumps == Jumps::Unknown || usual == UsualValues{})
     return at_risk;
   Findings more;
-  ValuesPass(program, flow, target, &usual, more).run(jumps);
+  run(&usual, more);
   const auto& all = findings.all();
   for (auto& one : more.all())
     if (one.rule == &rules::MayLeaveRange &&
