@@ -32,6 +32,9 @@ public:
     for (const auto& place : flow_.all(Statement::Goroll))
       if (flow_.is_line(place))
         check_early_test(place.code);
+    for (const auto& place : flow_.all(Statement::Let))
+      if (flow_.is_line(place))
+        check_copy(place.code);
     for (const auto& place : flow_.all(Statement::Raw))
       if (flow_.is_line(place))
         check_roll_below(place.code);
@@ -50,7 +53,7 @@ public:
 private:
   std::optional<std::int32_t> number(const Item& item) const { return constant_in(program_, item); }
 
-  // ---- a speed tested before the ball can have started to move
+  // ---- sensors that cannot have changed yet
 
   /// Follows a roll along the only path to a test that is reached in no time. The ball must be at
   /// rest: no roll comes before.
@@ -100,6 +103,37 @@ private:
       if (!jump.call && jump.to <= at && at <= jump.from)
         end = std::max(end, jump.from);
     return end;
+  }
+
+  /// A copy of a sensor that the lines right below subtract from it.
+  void check_copy(std::uint32_t code) {
+    const auto let = program_.as<LetView>(statement_of(code));
+    const auto sensor = sensor_in(program_, let.expression);
+    if (let.variable.kind != ItemKind::Letter || !sensor || is_timer(*sensor))
+      return;
+    const auto is_one = [&](const Node& node) {
+      return (node.kind == NodeKind::System && static_cast<Variable>(node.what) == *sensor) ||
+             (node.kind == NodeKind::Letter && node.what == let.variable.value);
+    };
+    constexpr std::uint32_t near = 4;
+    for (auto i = code + 1; i < size_ && i - code <= near && !flow_.code[i].target; ++i) {
+      const auto& statement = statement_of(i);
+      for (auto n = statement.nodes_begin; !statement.error && n < statement.nodes_end; ++n) {
+        const auto& node = program_.nodes[n];
+        if (node.kind != NodeKind::Binary || node.first + 2 != n ||
+            static_cast<spec::Operator>(node.what) != spec::Operator::Subtract)
+          continue;
+        const auto& left = program_.nodes[n - 2];
+        const auto& right = program_.nodes[n - 1];
+        if (left.kind != right.kind && is_one(left) && is_one(right)) {
+          auto& d = findings_.add(rules::EarlySensor, node.span,
+                                  texts::CopiedJustNow(program_.text_of(node.span)));
+          add_note(d, statement_of(code).span, texts::SetHere());
+        }
+      }
+      if (!is_plain(i) || spec::info(statement.kind).after != spec::After::Falls)
+        return;
+    }
   }
 
   // ---- rolls while stabilization is off

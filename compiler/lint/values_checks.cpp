@@ -1,4 +1,5 @@
 #include "base/text/text.h"
+#include "compiler/lint/sensor_tests.h"
 #include "compiler/lint/sums.h"
 #include "compiler/lint/values_pass.h"
 
@@ -436,7 +437,24 @@ std::optional<Orders> ValuesPass::written_orders(const Comparison& comparison) c
   return std::nullopt;
 }
 
+/// A sensor, compared with a value that is known here but not written as a number.
+void ValuesPass::check_known_bound(const Comparison& comparison) {
+  const auto sensor = sensor_in(program_, comparison.left);
+  const auto& bound = known_[comparison.right.value].range;
+  const auto asked = written_orders(comparison);
+  const auto written = program_.text_of(comparison.right.span).front();
+  if (!sensor || !asked || !bound.constant() || is_digit(written) || written == '-')
+    return;
+  const auto& row = spec::info(*sensor);
+  if (!bound.misses(row.least, row.greatest))
+    return; // perhaps the first of several
+  const Span all{comparison.left.span.begin, comparison.right.span.end};
+  if (auto said = judge({*sensor, *asked, bound.lo, true, "!"}, program_.text_of(all), {}))
+    findings_.add(*said->rule, all, std::move(said->message), std::move(said->help));
+}
+
 void ValuesPass::check_answer(const Comparison& comparison) {
+  check_known_bound(comparison);
   const auto& known = known_[comparison.left.value];
   const Span all{comparison.left.span.begin, comparison.right.span.end};
   const auto number = number_in(program_, comparison.right);

@@ -213,6 +213,7 @@ private:
   /// A letter with the result of a sensor or `rnd`, compared with a value that it never has.
   /// Sensors themselves are checked elsewhere.
   void check_answer(const Comparison& comparison);
+  void check_known_bound(const Comparison& comparison);
   std::optional<Orders> written_orders(const Comparison& comparison) const;
 
   void check_print(const StatementNode& statement);

@@ -20,8 +20,8 @@ namespace robot = compiler::rules;
 namespace robot_texts = compiler::texts;
 
 /// The rules that also apply to structured programs; structured/meaning/ covers the subjects of the
-/// others.
-bool is_told(const Diagnostic& found) {
+/// others, such as sensors compared with a written number.
+bool is_told(const Diagnostic& found, std::string_view text) {
   for (const auto* told : {&robot::ValueOutOfRange,  &robot::DivisionByZero,  &robot::UnknownFlags,
                            &robot::MissingGo,        &robot::NewerThanTarget, &robot::ReadPastData,
                            &robot::ClearedByReading, &robot::DataReplaced,    &robot::BusyLoop,
@@ -39,7 +39,9 @@ bool is_told(const Diagnostic& found) {
   const auto& message = found.message; // their other texts are about orbBasic only
   return message.is(robot_texts::NoRollLeadsThere) || message.is(robot_texts::NeverLess) ||
          message.is(robot_texts::NeverMore) || message.is(robot_texts::EndsAfterOne) ||
-         message.is(robot_texts::NeverTrueBelow);
+         message.is(robot_texts::NeverTrueBelow) ||
+         ((message.is(robot_texts::AsSensorIs) || message.is(robot_texts::AsSensorIsIn)) &&
+          is_letter(trim(text.substr(text.find_last_of("<>=!") + 1)).front()));
 }
 
 class MeaningFindings {
@@ -49,7 +51,7 @@ public:
 
   void run(const compiler::Target& target) {
     for (auto& found : compiler::lint_meaning(lines_, target))
-      if (is_told(found))
+      if (is_told(found, program_.text_of(found.span)))
         tell(std::move(found));
   }
 
