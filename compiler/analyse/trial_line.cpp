@@ -137,12 +137,15 @@ void TrialLine::check_right(spec::Operator op, Span span, const Value& operand) 
 }
 
 Value* TrialLine::selected(Span span) {
-  const auto& index = now_.letters[index_letter].range;
+  auto& index = now_.letters[index_letter];
   const auto most = spec::value_of(spec::Limit::IndexedVariables);
-  if (index.misses(1, most))
-    stop(rules::MayLeaveRange, span, texts::UsedWhileIndexBecomes('Z', 'Y', shown(index), 1, most));
-  else if (may_leave(now_.letters[index_letter], 1, most))
-    warn(span, texts::UsedWhileIndexCanBe('Z', 'Y', shown(index), 1, most));
+  if (index.range.misses(1, most)) {
+    stop(rules::MayLeaveRange, span,
+         texts::UsedWhileIndexBecomes('Z', 'Y', shown(index.range), 1, most));
+  } else if (may_leave(index, 1, most)) {
+    warn(span, texts::UsedWhileIndexCanBe('Z', 'Y', shown(index.range), 1, most));
+    index.exact = index.dense = false; // what follows only runs with the other values
+  }
   return element_at_index();
 }
 

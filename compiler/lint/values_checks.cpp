@@ -373,6 +373,7 @@ void ValuesPass::check_index(Span span) {
     findings_.add(rules::MayLeaveRange, span,
                   texts::UsedWhileIndexCanBe('Z', 'Y', shown(range), 1, most),
                   texts::KeepWithin('Y', 1, most));
+    now_[index_letter].exact = false; // what follows only runs with the other values
   } else if (index.first_set != nullptr &&
              index.first_set->span.begin > program_.lines[line_].span.end && in_order_ &&
              !before_y_) {
