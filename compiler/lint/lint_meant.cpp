@@ -105,11 +105,12 @@ private:
     return end;
   }
 
-  /// A copy of a sensor that the lines right below subtract from it.
+  /// A copy of a place or the speed that the lines right below subtract from it.
   void check_copy(std::uint32_t code) {
     const auto let = program_.as<LetView>(statement_of(code));
     const auto sensor = sensor_in(program_, let.expression);
-    if (let.variable.kind != ItemKind::Letter || !sensor || is_timer(*sensor))
+    if (let.variable.kind != ItemKind::Letter || !sensor ||
+        (spec::info(*sensor).unit != "cm" && *sensor != Variable::Speed))
       return;
     const auto is_one = [&](const Node& node) {
       return (node.kind == NodeKind::System && static_cast<Variable>(node.what) == *sensor) ||
@@ -131,7 +132,11 @@ private:
           add_note(d, statement_of(code).span, texts::SetHere());
         }
       }
-      if (!is_plain(i) || spec::info(statement.kind).after != spec::After::Falls)
+      const bool sets = !statement.error && statement.kind == Statement::Let &&
+                        program_.items_of(statement)[0].kind == ItemKind::Letter &&
+                        program_.items_of(statement)[0].value == let.variable.value;
+      if (!is_plain(i) || sets || statement.kind == Statement::Locate ||
+          spec::info(statement.kind).after != spec::After::Falls)
         return;
     }
   }

@@ -20,7 +20,7 @@ Value sensor(std::size_t index, const std::optional<Range>& usual) {
   const auto& row = spec::variables[index];
   Value value{usual.value_or(Range{row.least, row.greatest})};
   value.exact = value.dense = usual || reaches_ends[index];
-  if (usual)
+  if (usual) // the origin tells check_usual() which are times
     value.origin = row.unit == "ms" ? Origin::World : Origin::Motion;
   value.fresh = usual && row.unit == "cm"; // both places are independent of each other
   return value;
