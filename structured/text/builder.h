@@ -65,22 +65,17 @@ public:
     over(kind, what, program_.nodes.back().first, where);
   }
   void binary(NodeKind kind, std::uint8_t what) {
-    const auto& right = program_.nodes.back();
-    const auto& left = program_.nodes[right.first - 1];
-    over(kind, what, left.first, whole(left.span, right.span));
+    const auto left = program_.nodes.back().first - 1;
+    const auto end = whole(nodes() - 1).end;
+    over(kind, what, program_.nodes[left].first, {whole(left).begin, end});
   }
-  /// From one operand to the other, with the brackets around each.
-  Span whole(Span left, Span right) const {
-    Span both{left.begin, right.end};
-    for (auto at = left.end; at < right.begin; ++at) {
-      if (base_[at] == ')')
-        while (base_[--both.begin] != '(') {
-        }
-      if (base_[at] == '(')
-        while (base_[both.end++] != ')') {
-        }
-    }
-    return both;
+  /// The place of an operand with the brackets around it. Drops the groups in it.
+  Span whole(std::uint32_t node) {
+    const bool grouped = !groups_.empty() && groups_.back().node == node;
+    const auto span = grouped ? groups_.back().span : program_.nodes[node].span;
+    while (!groups_.empty() && groups_.back().node >= program_.nodes[node].first)
+      groups_.pop_back();
+    return span;
   }
   void operation(char sign) {
     binary(NodeKind::Binary, static_cast<std::uint8_t>(*spec::find_operator(sign)));
@@ -111,6 +106,11 @@ public:
   void close() {
     --brackets_;
     --depth_;
+  }
+  /// Ends a group in parentheses, whose root is the last node.
+  void close_group(Span span) {
+    close();
+    groups_.push_back({nodes() - 1, span});
   }
   void open_not(const char* at) {
     if (++depth_ > deepest)
@@ -175,7 +175,10 @@ public:
     this->begin(Kind::Broken, span(begin, begin)).meant = meant;
     begin_line();
   }
-  void begin_line() { depth_ = brackets_ = 0; }
+  void begin_line() {
+    depth_ = brackets_ = 0;
+    groups_.clear();
+  }
 
   void report(Diagnostic diagnostic) { program_.diagnostics.push_back(std::move(diagnostic)); }
   Program& program() { return program_; }
@@ -260,6 +263,11 @@ private:
 
   Program& program_;
   const char* base_;
+  struct Group {
+    std::uint32_t node = 0; ///< its root
+    Span span;              ///< with its parentheses
+  };
+  std::vector<Group> groups_;        ///< that no operation has taken up yet
   std::vector<std::uint32_t> slots_; ///< hash table of names; the size is a power of two
   std::vector<Span> long_;           ///< names that are too long
   std::vector<Span> indexed_;        ///< places of second indices

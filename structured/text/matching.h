@@ -281,7 +281,7 @@ ORB_ACTIONS
 
 ORB_ACTION(g::numeral, add_numeral(builder, in.begin(), in.end()))
 ORB_ACTION(g::group_begin, builder.open(in.begin()))
-ORB_ACTION(g::group, builder.close())
+ORB_ACTION(g::group, builder.close_group(builder.span(in.begin(), in.end())))
 ORB_ACTION(g::negation, builder.unary(NodeKind::Negate, 0, builder.span(in.begin(), in.end())))
 ORB_ACTION(g::product_tail, builder.operation(*in.begin()))
 ORB_ACTION(g::sum_tail, builder.operation(*in.begin()))
